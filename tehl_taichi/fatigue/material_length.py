@@ -9,7 +9,7 @@ import numpy as np
 from tehl_taichi.fatigue import depth_search, local_strength
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
-from tehl_taichi.fatigue.stress.averaging import AveragedReader
+from tehl_taichi.fatigue.stress.averaging import averaged_reader
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.worst_point import worst_of
 from tehl_taichi.scene import material_length
@@ -23,7 +23,7 @@ def counts(scene, x):
 def part(scene, surface, reader, centres, progress):
     """Numbers of the search of one body by averaged stresses, "averaged" of its summary; centres: of the first feature, m;
     the others as those of :func:`tehl_taichi.fatigue.assessment.run`."""
-    passage = StressHistories(scene, AveragedReader(reader, scene.fatigue.length), np.asarray(centres), surface=surface)
+    passage = StressHistories(scene, averaged_reader(reader, scene.fatigue.length), np.asarray(centres), surface=surface)
     progress = PassProgress.of(progress, scene, passage)
     layers = [layer(scene, passage, depth, progress, None) for depth in (0.0, *scene.fatigue.listed)]
     deep = depth_search.search(scene, passage, layers, None, progress).worst if scene.fatigue.depths else []

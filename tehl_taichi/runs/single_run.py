@@ -186,7 +186,8 @@ def _finish(saved, state, steady, clock, progress):
         run_in = _march(saved, state, progress)
         until = _resolved(saved)
         coarse_answers = start_coarse(until)
-        found, arrays = _fatigue(saved, until, progress)
+        alone = _fatigue(saved, until, progress)
+        found, arrays = (alone.summaries, alone.to_arrays()) if alone else ({}, None)
         steel, arrays = _of_steel(saved.scene, run_in, found, arrays) if run_in else ({}, arrays)
         _add_contact_alone(found, steady["steady_contact_alone"])
         sure = {name: one for name, one in found.items() if not why_none(one)}
@@ -194,20 +195,20 @@ def _finish(saved, state, steady, clock, progress):
         notify = functools.partial(progress.stage, ERRORS)
         passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain, steel.get("run_in"))
         if saved.scene.zooms and len(saved) > 2:
-            passage, found, arrays = _zoom(saved, passage, sure, domain, steady, progress)
+            passage, found, arrays = _zoom(saved, passage, alone if sure else None, domain, steady, progress)
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage, **steel}, found), arrays)
     return Run(saved)
 
 
-def _zoom(saved, passage, sure, domain, steady, progress):
-    """(error bars and numbers, {surface: summary}, arrays) of a run with its fine window; passage, sure: bars and searches of
-    the run alone."""
+def _zoom(saved, passage, alone, domain, steady, progress):
+    """(error bars and numbers, {surface: summary}, arrays) of a run with its fine window; passage, alone: bars and SearchResult
+    (None: no index) of the run alone."""
     from tehl_taichi.runs import zoomed_run
 
     windows = zoomed_run.levels(saved, progress)
-    found, arrays = zoomed_run.search(saved, windows, progress) if sure else ({}, {})
+    found, arrays = zoomed_run.search(saved, windows, alone, progress) if alone else ({}, {})
     _add_contact_alone(found, steady["steady_contact_alone"])
-    passage = zoomed_run.corrected(saved, windows, sure, passage, domain)
+    passage = zoomed_run.corrected(saved, windows, alone.summaries if alone else {}, passage, domain)
     numbers = zoomed_run.summary(saved, windows, passage, found)
     return {**passage, "zoom": numbers}, found, {**arrays, **zoomed_run.arrays(windows)}
 
@@ -278,14 +279,13 @@ def _resolved(saved):
 
 
 def _fatigue(saved, until, progress):
-    """({surface: summary}, arrays) of the fatigue search, the worse first; empty and None where there is none."""
+    """The SearchResult of the run, or None."""
     from tehl_taichi.runs.stored_fatigue import assessed
 
     if not _searched(saved):
-        return {}, None
+        return None
     progress.say("stresses and Findley search")
-    result = assessed(saved, saved.scene, progress, until)
-    return result.summaries, result.to_arrays()
+    return assessed(saved, saved.scene, progress, until)
 
 
 def _add_contact_alone(found, alone):

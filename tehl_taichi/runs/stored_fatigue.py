@@ -1,11 +1,13 @@
 """The fatigue of a stored passage, as far as its tractions allow an index."""
 
+import functools
 from dataclasses import replace
 from typing import cast
 
-from tehl_taichi.fatigue import fatigue
+from tehl_taichi.fatigue import assessment, fatigue
 from tehl_taichi.fatigue.pressure_alone import WITHOUT, without_index
 from tehl_taichi.fatigue.search_result import SearchResult
+from tehl_taichi.runs.progress import FATIGUE
 from tehl_taichi.runs.summary.film_warnings import no_index
 
 
@@ -13,11 +15,13 @@ def assessed(store, scene, progress=None, until=None, threads=None, reader=None)
     """:class:`tehl_taichi.fatigue.search_result.SearchResult` of a stored passage by the constants of `scene`; of the pressure
     alone where the film has more shear than any oil.
 
-    reader: what is searched, if not the store; progress, until, threads: as of :func:`tehl_taichi.fatigue`.
+    reader: the run with a window, which is searched in place of the store, without the contact alone; progress, until,
+    threads: as of :func:`tehl_taichi.fatigue`.
     """
     why = no_index(store) if scene.fatigue.shear else ""
     counted = scene.replace(**WITHOUT) if why else scene
-    searched = fatigue(reader or store, counted, progress=progress, threads=threads, until=until)
+    searched = (fatigue(store, counted, progress=progress, threads=threads, until=until) if reader is None else
+                assessment.run(counted, reader, functools.partial(progress.stage, FATIGUE), until, alone=False))
     found = cast(SearchResult, searched)  # of a store, not of single points
     if not why:
         return found

@@ -14,7 +14,9 @@ from tehl_taichi.march.accuracy.domain_error import widened
 from tehl_taichi.march.accuracy.error_bars import bars
 from tehl_taichi.march.zoom import zoomed_passage
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader, extreme
+from tehl_taichi.runs import zoomed_points
 from tehl_taichi.runs.progress import ZOOM
+from tehl_taichi.scene import resolution
 from tehl_taichi.scene.scales import Scales
 
 FIELDS = {"pressure": ("Pa", "pressure in the zoom window"), "film": ("m", "film thickness in the zoom window"),
@@ -39,19 +41,28 @@ def levels(saved, progress):
     scene = saved.scene
     factors = [factor for factor in (scene.zoom.factor // 2, scene.zoom.factor) if factor > 1]
     progress.stage(ZOOM, 0, len(saved) - 1)
-    found = zoomed_passage.passages(scene, saved, factors, functools.partial(progress.stage, ZOOM))
+    found = zoomed_passage.passages(scene, saved, factors, functools.partial(progress.stage, ZOOM), _until(saved))
     return [ZoomLevel(one, ZoomedReader(saved, one, scene.symmetric)) for one in found]
 
 
-def search(saved, found, progress):
-    """Search the fatigue of every level. Returns ({surface: summary}, arrays) of the finest."""
+def _until(saved):
+    """Position (a) of the feature up to which the run needs no window; None where it needs one everywhere."""
+    few = any(sight.cells < resolution.ENOUGH for sight in resolution.sights(saved.scene))
+    return None if few else coarse_runs.resolved(saved.scene, saved, saved.scalar)
+
+
+def search(saved, found, alone, progress):
+    """Search the fatigue of every level, of the points that matter in `alone`, the SearchResult of the run. Returns ({surface:
+    summary}, arrays) of the finest."""
     from tehl_taichi.runs.stored_fatigue import assessed
 
-    for level in found:
+    results = []
+    for level in reversed(found):  # the finest first, whose stresses by the heat of the run the others take over
+        level.reader.searched, level.reader.kept_heat = zoomed_points.ends(saved.scene, alone), found[-1].reader.kept_heat
         until = coarse_runs.resolved(saved.scene, level.reader, level.reader.scalar)
-        result = assessed(saved, saved.scene, progress, until, reader=level.reader)
-        level.searches = result.summaries
-    return result.summaries, result.to_arrays()
+        results.append(assessed(saved, saved.scene, progress, until, reader=level.reader))
+        level.searches = zoomed_points.completed(results[-1].summaries, alone.summaries)
+    return found[-1].searches, results[0].to_arrays()
 
 
 def corrected(saved, found, searches, passage, domain):

@@ -440,14 +440,15 @@ class Zoom:
                               least=0.1)
     width_y: float = quantity(0.0, "a", "width of the window along y; 0: of what the feature changes", 0.0, 8.0, usual=0.8,
                               least=0.1)
-    from_x: float = quantity(-math.inf, "a", "first position of the feature with a window; -inf: its whole path", infinite=True)
+    from_x: Union[float, str] = quantity(AUTO, "a", "first position of the feature with a window; auto: shortly before the "
+                                         "grid no longer resolves the pressure; -inf: its whole path", infinite=True, usual=0.5)
     to_x: float = quantity(math.inf, "a", "last position of the feature with a window; inf: its whole path", infinite=True)
 
     def __post_init__(self):
         check(self, "zoom")
         if self.factor not in FACTORS:
             raise SceneError(f"zoom.factor = {self.factor} is not one of {', '.join(map(str, FACTORS))} (0: no window)")
-        if not self.from_x < self.to_x:
+        if not isinstance(self.from_x, str) and not self.from_x < self.to_x:
             raise SceneError(f"zoom.from_x = {self.from_x!r} a must be less than to_x = {self.to_x!r} a")
 
 

@@ -55,9 +55,9 @@ def test_the_window_of_b_is_what_the_feature_slides_over():
 def test_fractions_of_a_cell_are_exact_for_polynomials_of_degree_five():
     x = np.arange(20.0)
     fields = np.stack([x**n for n in range(6)], axis=-1)
-    found = histories._shifted(fields, 6.37, 5)
+    found = histories.shifted(fields, 6.37, 5)
     np.testing.assert_allclose(found, np.stack([(6.37 + np.arange(5)) ** n for n in range(6)], axis=-1), rtol=1e-11)
-    np.testing.assert_array_equal(histories._shifted(fields, 6.0, 5), fields[6:11])
+    np.testing.assert_array_equal(histories.shifted(fields, 6.0, 5), fields[6:11])
 
 
 def without_names(found):

@@ -112,8 +112,8 @@ def test_a_window_that_ends_early_is_a_warning(folder, monkeypatch):
 
     whole = zoomed_passage.passages
 
-    def end(scene, reader, factors, notify):
-        passages = whole(scene, reader, factors, notify)
+    def end(scene, reader, factors, *more):
+        passages = whole(scene, reader, factors, *more)
         for found in passages:
             for values in (found.entries, found.origins, *found.fields.values()):
                 del values[20:]

@@ -142,6 +142,7 @@ def others(kind, value):
     if isinstance(kind, Pairs):
         return []
     size = kind.usual or 1.0
+    value = size if isinstance(value, str) else value  # "auto"
     return [value * 1.02 if value and math.isfinite(value) else size, value * 0.9, size, -1.0, 1.0, 1.3]
 
 

@@ -5,6 +5,8 @@ the loads themselves over that length. A material has one (Taylor, The Theory of
 a stress over a distance, not at a point; and at a jump of the surface shear sigma_xx is a logarithm of the distance.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 
@@ -52,3 +54,34 @@ class AveragedReader:
     def _averaged(self, name, field):
         odd = name.startswith("traction_y")
         return averaged(averaged(field, self.along), self.across, 1, self.mirrored, odd)
+
+
+class WindowedAverages(AveragedReader):
+    """An averaged reader with a window (:class:`tehl_taichi.fatigue.stress.windowed.WindowedStresses`), which is averaged
+    alike."""
+
+    def __init__(self, reader, length):
+        super().__init__(reader, length)
+        self.window, self.base, self.searched = reader.window, AveragedReader(reader.base, length), reader.searched
+        self.averaged, self.kept_heat = length, reader.kept_heat
+        self.at_axis = self.mirrored and self.window.row == 0
+
+    def inside(self, n, names):
+        """The Inside of entry n, or None."""
+        if (found := self.reader.inside(n, names)) is None:
+            return None
+        return replace(found, fine=self._parts(self, found.fine), coarse=self._parts(self.base, found.coarse))
+
+    def difference(self, n, name):
+        """(first fine column, (columns, rows) K of the window less the run) of entry n, or None."""
+        found = self.reader.difference(n, name)
+        return found and (found[0], self._parts(self, {name: found[1]})[name])
+
+    def _parts(self, of, fields):
+        return {name: averaged(averaged(field, of.along), of.across, 1, self.at_axis, name.startswith("traction_y"))
+                for name, field in fields.items()}
+
+
+def averaged_reader(reader, length):
+    """The averages of a reader over a square of `length` (m), with its window where it has one."""
+    return (WindowedAverages if hasattr(reader, "window") else AveragedReader)(reader, length)

@@ -6,6 +6,7 @@ at X = 0. Before the first and after the last snapshot (feature outside the cont
 every history begins and ends unloaded.
 """
 
+import functools
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -30,7 +31,8 @@ class StressHistories:
     first feature, `centres` of the frame of the surface (m).
 
     reader: x, y (m), time (s), len, feature_x(n) (m), fields(n, names) in SI; entry 0 is the steady start; positions (m): the
-    first feature's at every entry; window: half width (in a) of the part around one small feature; surface: whose points
+    first feature's at every entry; its `searched`, where it has one: {surface: ((x' from, to), (y from, to)) m}, of the points
+    that are wanted; window: half width (in a) of the part around one small feature; surface: whose points
     (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`), that of the first feature where nothing else is said.
     """
 
@@ -53,6 +55,7 @@ class StressHistories:
         rows = np.flatnonzero((reader.y >= -low * (1 + 1e-9)) & (reader.y <= high * (1 + 1e-9)))
         self.rows = slice(rows[0], rows[-1] + 1)
         self.y = reader.y[self.rows]
+        self._keep(getattr(reader, "searched", {}).get(self.surface.name))
         # centre of the feature and entry of the reader at every moment
         before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
         self.centres = np.concatenate([before, centres, after])
@@ -62,6 +65,16 @@ class StressHistories:
         self.entries = np.concatenate([0 * before, np.arange(len(centres)), 0 * after]).astype(int)
         self._widen()
         self._choose_moments()
+
+    def _keep(self, ends):
+        """Only the points with x' and y between these ends, ((low, high), (low, high)) m, those of all where there are none."""
+        if ends is None:
+            return
+        (left, right), (low, high) = ends
+        self.x = self.x[(self.x >= left) & (self.x <= right)]
+        rows = np.flatnonzero((self.y >= low) & (self.y <= high)) + self.rows.start
+        self.rows = slice(rows[0], rows[-1] + 1)
+        self.y = self.reader.y[self.rows]
 
     def _names(self):
         """Names of p, q_x and q_y of the surface."""
@@ -141,12 +154,34 @@ class StressHistories:
 
     def heat(self, kind, *more):
         """ThermalStress, or ThermalBelow (and its shallowest depth), of this passage."""
-        r, ambient = self.reader, self.scene.operation.temperature
-        self.ticks, dt = equal_steps(np.asarray(r.time))
-        name = f"temperature_{self.surface.name}"
-        rises = (np.asarray(r.fields(n, (name,))[name], float) - ambient for n in range(len(r)))
-        return kind(self.surface.body, self.surface.speed, between(rises, self.ticks), dt, r.x, r.y, self.pad[0],
-                    self.grid_x.size, self.a, self.mirrored, *more)
+        r = self.reader
+        grid = r.x, r.y, self.pad[0], self.grid_x.size
+        return self.heat_of(kind, self.rises(r), grid, self.mirrored, self.a, self.surface.speed, *more)
+
+    def rises(self, reader):
+        """Temperatures of the surface above ambient, K, at every one of the equal steps of a reader of the passage."""
+        name, ambient = f"temperature_{self.surface.name}", self.scene.operation.temperature
+        found = (np.asarray(reader.fields(n, (name,))[name], float) - ambient for n in range(len(reader)))
+        return between(found, self.ticks)
+
+    def heat_of(self, kind, rises, grid, mirrored, a, speed, *more):
+        """ThermalStress or ThermalBelow of these rises (K); grid: x, y (m), and how many columns its x lies behind the first of
+        how many; a (m): over which they fade behind it; speed: of the body in it, m/s."""
+        return kind(self.surface.body, speed, rises, self.tick, *grid, a, mirrored, *more)
+
+    @property
+    def ticks(self):
+        """Number of each entry among equal steps in time."""
+        return self._steps[0]
+
+    @property
+    def tick(self):
+        """Length of these steps, s."""
+        return self._steps[1]
+
+    @functools.cached_property
+    def _steps(self):
+        return equal_steps(np.asarray(self.reader.time))
 
     def row_blocks(self):
         """Slices of y rows whose histories fit into BLOCK_BYTES."""
@@ -217,16 +252,32 @@ class StressHistories:
         """Values of fields (x, rows, parts) at the material points at moment t: (parts, x', rows)."""
         return np.moveaxis(self._at(fields, t), -1, 0)
 
+    def band(self, entry):
+        """Columns (a slice) that the histories take of the stresses of an entry."""
+        starts = self._start(np.flatnonzero(self.entries == entry))
+        if not starts.size:
+            return slice(0, 0)
+        return slice(max(int(starts.min()) + NODES[0], 0),
+                     min(int(np.ceil(starts.max())) + self.x.size + NODES[-1], self.grid_x.size))
+
+    def _start(self, t):
+        """Column of the first material point at moments t."""
+        return (self.centres[t] + self.x[0] - self.grid_x[0]) / self.dx
+
     def _at(self, fields, t):
-        start = (self.centres[t] + self.x[0] - self.grid_x[0]) / self.dx
-        return _shifted(fields, start, self.x.size)
+        return shifted(fields, self._start(t), self.x.size)
 
     def loads(self, entry):
         """p, q_x and q_y (3, x, y) Pa of an entry; the shear is zero where it is not to count."""
-        given, front = self.reader.fields(entry, self.loads_of), self.pad[0]
-        out = np.zeros((3, self.grid_x.size, self.reader.y.size))
+        out, front = np.zeros((3, self.grid_x.size, self.reader.y.size)), self.pad[0]
+        out[:, front : front + self.reader.x.size] = self.loads_from(self.reader.fields(entry, self.loads_of))
+        return out
+
+    def loads_from(self, fields):
+        """p, q_x and q_y (3, ...) Pa of fields {name: array}; the shear is zero where it is not to count."""
+        out = np.zeros((3, *np.shape(fields[self.loads_of[0]])))
         for load, name in zip(out, self.loads_of if self.scene.fatigue.shear else self.loads_of[:1]):
-            load[front : front + self.reader.x.size] = given[name]
+            load[...] = fields[name]
         return out
 
     def _stress_field(self, entry, rows, stress, thermal):
@@ -260,7 +311,7 @@ def between(fields, ticks):
         before = at, field
 
 
-def _shifted(fields, start, count):
+def shifted(fields, start, count):
     """`count` columns of fields (x, ..., 6) from column `start`; exact for whole numbers, else by the polynomial through six
     nodes."""
     whole = int(np.round(start))

@@ -8,6 +8,8 @@ from tehl_taichi.engine.fftw import DOUBLE, SINGLE, real_of
 from tehl_taichi.fatigue.stress.row_stress import RowStress
 from tehl_taichi.fatigue.stress.thermal_stress import WORKERS, ThermalStress
 from tehl_taichi.fatigue.stress.unit_loads import HELD
+from tehl_taichi.fatigue.stress.windowed import WindowedStresses
+from tehl_taichi.fatigue.stress.windowed_heat import WindowedHeat
 
 
 def _no_progress(done, total):
@@ -40,18 +42,29 @@ def histories_of(passage, depths, kinds, notify=_no_progress):
 
 def _thermal(passage):
     """Its ThermalStress, where the scene wants it."""
-    return passage.heat(ThermalStress) if passage.scene.has_thermal_stress else None
+    if not passage.scene.has_thermal_stress:
+        return None
+    return WindowedHeat.on_the_surface(passage) if has_window(passage) else passage.heat(ThermalStress)
+
+
+def has_window(passage):
+    """Whether a fine window is part of what a passage is read from."""
+    return hasattr(passage.reader, "window")
 
 
 def _histories(passage, depths, kinds, notify, thermal, meanwhile=lambda: None):
     """(x', kinds, depths, moments, 6) Pa; thermal: that of the surface, if it is among the depths; meanwhile: what this thread
     does while others find stresses."""
     deep = [n for n, depth in enumerate(depths) if depth] if passage.scene.has_thermal_stress else []
-    blocks, stresses = len(passage.blocks), _Stresses(passage, depths, kinds, thermal)
+    blocks, stresses = len(passage.blocks), (_windowed if has_window(passage) else _Stresses)(passage, depths, kinds, thermal)
     out = passage.gathered((len(kinds), len(depths)), stresses, lambda done, _: notify(done, blocks + len(deep)), meanwhile)
     if deep:
         _heat(passage, depths, deep, [row for row, _ in kinds], out, lambda n: notify(blocks + n, blocks + len(deep)))
     return passage.resting(out, np.asarray(depths)[:, None], [row for row, _ in kinds])
+
+
+def _windowed(passage, depths, kinds, thermal):
+    return WindowedStresses(passage, depths, [row for row, _ in kinds], thermal)
 
 
 class _Stresses:
@@ -94,7 +107,8 @@ def _operators(passage, depths, kinds):
 def _heat(passage, depths, deep, rows, out, notify):
     """Thermal stress below the surface added to the histories `out` (x', kinds, depths, moments, 6); deep: numbers of the
     depths there; notify: called with those done."""
-    thermal, part = passage.below(min(depths[n] for n in deep)), np.zeros_like(out[:, 0, 0])
+    first, part = min(depths[n] for n in deep), np.zeros_like(out[:, 0, 0])
+    thermal = WindowedHeat.below(passage, first) if has_window(passage) else passage.below(first)
     entries = np.unique(passage.entries)
     with ThreadPoolExecutor(WORKERS) as pool:
         for done, (n, found) in enumerate(zip(deep, pool.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):

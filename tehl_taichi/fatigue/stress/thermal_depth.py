@@ -22,7 +22,7 @@ from tehl_taichi.fatigue.stress.wave_table import WaveTable
 
 LEAD = 4.0  # a: the contact stands at its first state for this way of the body, which is cold before
 REACH = 9.0  # waves with k z beyond this do not reach the depth z (exp(-9) = 1e-4)
-WEAK = 1e-4  # waves below this share of the strongest are left out
+WEAK = 1e-4  # waves below this share (`weak`) of the strongest are left out
 CHUNK = 256  # waves convolved at once
 PARTS = np.array([0, 1 / 64, 1 / 16, 1 / 4, 1])  # of the newest step: near the surface the answer to it is quick
 
@@ -51,19 +51,19 @@ class ThermalBelow(SurfaceHeat):
     """The six stresses (Pa) at depths of a body, at every entry of a passage: :meth:`rows` on some rows, :meth:`at` on all.
 
     Arguments as for :class:`tehl_taichi.fatigue.stress.thermal_stress.ThermalStress`; shallowest: depth (m) of the first layer
-    wanted, waves that do not reach it are left out. The body was cold until the contact had come LEAD a near, and has had the
-    state of entry 0 since. Holds one complex number of single precision per entry (with the way before) and wave number.
+    wanted, waves that do not reach it are left out. The body was cold until the contact had come `lead` (a) near, and has had
+    the state of entry 0 since. Holds one complex number of single precision per entry (with the way before) and wave number.
     """
 
-    def __init__(self, body, speed, rises, dt, x, y, front, columns, a, mirrored, shallowest):
+    def __init__(self, body, speed, rises, dt, x, y, front, columns, a, mirrored, shallowest, lead=LEAD, weak=WEAK):
         super().__init__(body, rises, x, y, front, columns, a, mirrored)
         self.diffusivity, self.speed, self.dt = body.k / (body.rho * body.c), speed, dt
-        self.lead, self.entries = math.ceil(LEAD * a / (speed * dt)), len(self.rises)
+        self.lead, self.entries = math.ceil(lead * a / (speed * dt)) if lead else 0, len(self.rises)
         self.size = fast_length(2 * self.entries + self.lead)
         spectra = self.spectra()
         self.rises = None
         strength = np.abs(spectra).max(axis=0) * np.exp(-self.waves.k * shallowest)
-        self.ix, self.iy = np.nonzero((strength > WEAK * strength.max()) & (self.waves.k * shallowest < REACH))
+        self.ix, self.iy = np.nonzero((strength > weak * strength.max()) & (self.waves.k * shallowest < REACH))
         self.kx, self.ky = self.waves.kx[self.ix, 0], self.waves.ky[0, self.iy]
         self.k = np.hypot(self.kx, self.ky)
         self.shallowest = shallowest

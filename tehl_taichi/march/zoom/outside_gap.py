@@ -7,8 +7,8 @@ the nodes of the window, that by the pressure along its border, which the window
 import numpy as np
 
 from tehl_taichi.march.feature_gap import with_features
-from tehl_taichi.march.zoom.refining import Refining
 from tehl_taichi.pressure import fields, influence
+from tehl_taichi.values.refining import Refining
 
 BESIDE = 4  # nodes of the run beside the window
 

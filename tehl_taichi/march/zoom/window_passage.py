@@ -9,7 +9,6 @@ import numpy as np
 from tehl_taichi.march.coupling import carefully, exchange, rounds
 from tehl_taichi.march.substeps import Substeps
 from tehl_taichi.march.zoom.outside_gap import OutsideGap
-from tehl_taichi.march.zoom.refining import Refining
 from tehl_taichi.march.zoom.two_frames import TwoFrames
 from tehl_taichi.march.zoom.window_heat import WindowHeat
 from tehl_taichi.march.zoom.window_levels import WindowLevels
@@ -17,6 +16,7 @@ from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.isothermal import OneTemperature
 from tehl_taichi.pressure.newton import RISES, PressureSolver
 from tehl_taichi.pressure.storage_term import ORDER, Storage
+from tehl_taichi.values.refining import Refining
 
 SHEAR = "traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b"
 GUESSED = 2  # order of the guess of the pressure

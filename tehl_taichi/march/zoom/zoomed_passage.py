@@ -7,6 +7,9 @@ import numpy as np
 from tehl_taichi.march.zoom.base_states import BaseStates
 from tehl_taichi.march.zoom.window import Window
 from tehl_taichi.march.zoom.window_passage import WindowPassage
+from tehl_taichi.values.quantity import AUTO
+
+LEAD = 0.4  # a, of a window before the first moment that it is needed for: the oil under it then is its own
 
 
 @dataclass
@@ -41,14 +44,15 @@ class ZoomedPassage:
         self.attempts += len(reports)
 
 
-def passages(scene, reader, factors, notify=lambda done, total: None):
-    """The ZoomedPassages of windows of these factors through the run of a scene in `reader` (every step, the start first).
+def passages(scene, reader, factors, notify=lambda done, total: None, until=None):
+    """The ZoomedPassages of windows of these factors through the run of a scene in `reader` (every step, the start first);
+    until: position (a) of the feature up to which the run resolves the pressure, None: anywhere.
 
     A step that fails for good ends one; notify(done, total) after each step of the run.
     """
     base = BaseStates(scene, reader)
     marches = [WindowPassage(base, Window.of(scene, factor)) for factor in factors]
-    out, (first, last) = [ZoomedPassage(march.window) for march in marches], steps_of(scene, base)
+    out, (first, last) = [ZoomedPassage(march.window) for march in marches], steps_of(scene, base, until)
     for march in marches:
         march.begin(first)
     for step in range(first, last):
@@ -71,8 +75,10 @@ def _advance(march, found, step):
         found.ended = f"it did not converge with the feature at {march.base.position(step + 1):.2f} a"
 
 
-def steps_of(scene, base):
-    """(first, last) step of the run between which there is a window, from zoom.from_x to to_x."""
-    at = np.array([base.position(n) for n in range(base.last + 1)])
-    inside = np.flatnonzero((at >= scene.zoom.from_x) & (at <= scene.zoom.to_x))
+def steps_of(scene, base, until=None):
+    """(first, last) step of the run between which there is a window, from zoom.from_x to to_x; until: see :func:`passages`."""
+    at, begin = np.array([base.position(n) for n in range(base.last + 1)]), scene.zoom.from_x
+    if begin == AUTO:
+        begin = -np.inf if until is None else until - LEAD
+    inside = np.flatnonzero((at >= begin) & (at <= scene.zoom.to_x))
     return (int(inside[0]), int(inside[-1])) if inside.size else (0, 0)

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from tehl_taichi.march.zoom.refining import Refining
+from tehl_taichi.fatigue.stress.windowed import POINTS, Extent, Inside
+from tehl_taichi.values.refining import Refining
 
 EXTREMES = {"p_max_Pa": ("pressure", np.max), "h_min_m": ("film", np.min)}  # numbers of an entry that the window changes
 
@@ -12,7 +13,9 @@ class ZoomedReader:
     times as far apart, with those of the :class:`tehl_taichi.march.zoom.zoomed_passage.ZoomedPassage` in them."""
 
     def __init__(self, reader, zoomed, mirrored):
-        self.reader, self.zoomed, w = reader, zoomed, zoomed.window
+        self.base, self.zoomed, w, self.searched = reader, zoomed, zoomed.window, {}
+        self.averaged, self.kept_heat = 0.0, {}
+        self.window = Extent(w.factor, w.nx + 1, w.ny + 1, w.row)
         self.time, self.feature_x = reader.time, reader.feature_x
         self.x, self.y = (_between(side, w.factor) for side in (reader.x, reader.y))
         self.place = {entry: n for n, entry in enumerate(zoomed.entries)}
@@ -25,24 +28,24 @@ class ZoomedReader:
             self.series[name][zoomed.entries] = values
 
     def __len__(self):
-        return len(self.reader)
+        return len(self.base)
 
     def scalar(self, name):
         """Values of a number, one per entry."""
-        return self.series[name] if name in self.series else self.reader.scalar(name)
+        return self.series[name] if name in self.series else self.base.scalar(name)
 
     def _take_extremes(self, n):
         """The largest pressure and the least film of entry n: of the window in its core, of the run elsewhere."""
         at = self.place[n]
         inside, outside = (of(self.zoomed.origins[at]).T for of in (self.zoomed.window.inside, self.zoomed.window.outside))
-        run = self.reader.fields(n, tuple(field for field, _ in EXTREMES.values()))
+        run = self.base.fields(n, tuple(field for field, _ in EXTREMES.values()))
         for name, (field, extreme) in EXTREMES.items():
             own = self.zoomed.fields[field][at]
             self.series[name][n] = extreme(np.concatenate([run[field][outside], own[inside]]))
 
     def fields(self, n, names):
         """{name: (nx+1, ny+1) array} of entry n."""
-        return {name: self._field(name, n, field) for name, field in self.reader.fields(n, names).items()}
+        return {name: self._field(name, n, field) for name, field in self.base.fields(n, names).items()}
 
     def _field(self, name, n, field):
         field = np.asarray(field, float).T
@@ -52,11 +55,46 @@ class ZoomedReader:
         return np.ascontiguousarray(out.T)
 
     def _paste(self, out, name, n):
-        w, origin = self.zoomed.window, self.zoomed.origins[n]
-        columns, rows = np.arange(origin, origin + w.nx + 1), np.arange(w.row, w.row + w.ny + 1)
-        part = w.core(columns, rows, origin)
+        columns, rows = self._nodes(n)
         own = out[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-        own += part * (self.zoomed.fields[name][n].T - own)
+        own += self._core(n).T * (self.zoomed.fields[name][n].T - own)
+
+    def inside(self, n, names):
+        """The :class:`tehl_taichi.fatigue.stress.windowed.Inside` of entry n, or None."""
+        if (at := self.place.get(n)) is None:
+            return None
+        core, run = self._core(at), self.base.fields(n, names)
+        return Inside(self.zoomed.origins[at], core, {name: core * self.zoomed.fields[name][at] for name in names},
+                      {name: self._of_run(at, field) for name, field in run.items()})
+
+    def difference(self, n, name):
+        """(first fine column, (columns, rows) of a field of the window less that of the run, with the weight of the core) of
+        entry n, or None."""
+        if (at := self.place.get(n)) is None:
+            return None
+        columns, rows = self._nodes(at)
+        field = np.asarray(self.base.fields(n, (name,))[name], float).T
+        refining = Refining((rows[0], columns[0]), (rows.size, columns.size), self.window.factor, field.shape,
+                            self.refining.mirrored)
+        return int(columns[0]), self._core(at) * (self.zoomed.fields[name][at] - refining.smooth(field, POINTS).T)
+
+    def _of_run(self, at, field):
+        """A field of the run round the window, with the weight of the core."""
+        w, origin, (first, count) = self.window, self.zoomed.origins[at], self.window.coarse_rows
+        columns = w.coarse_column(origin) + np.arange(w.coarse_columns)
+        rows = first + np.arange(count)
+        there = np.ix_(*(np.clip(places, 0, of - 1) for places, of in zip((columns, rows), field.shape)))
+        core = self.zoomed.window.core(w.factor * columns, w.factor * rows, origin).T
+        return core * np.asarray(field, float)[there]
+
+    def _nodes(self, at):
+        """Fine columns and rows of the window of a moment."""
+        w, origin = self.zoomed.window, self.zoomed.origins[at]
+        return np.arange(origin, origin + w.nx + 1), np.arange(w.row, w.row + w.ny + 1)
+
+    def _core(self, at):
+        """(columns, rows) of a moment."""
+        return self.zoomed.window.core(*self._nodes(at), self.zoomed.origins[at]).T
 
 
 def extreme(reader, name):

@@ -5,9 +5,9 @@ import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue.assessment import Snapshots
-from tehl_taichi.march.zoom.refining import Refining
 from tehl_taichi.march.zoom.zoomed_passage import passages
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
+from tehl_taichi.values.refining import Refining
 
 LINE = tehl.scene("gear").replace(**{"feature.length": float("inf"), "grid.nx": 64, "fatigue.on": False, "time.x_end": 0.4})
 FASTER = {"operation.srr": 0.12, "feature.surface": "b"}

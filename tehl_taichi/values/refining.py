@@ -8,10 +8,11 @@ from tehl_taichi.values.interpolation import lagrange
 
 
 @functools.lru_cache(maxsize=32)
-def matrix(factor, nodes, points, mirrored=False):
+def matrix(factor, nodes, points, mirrored=False, odd=False):
     """Weights (fine nodes, nodes) of the nodes 0 ... nodes - 1 for all fine ones, `factor` of them to a cell.
 
-    points: of the polynomial; near the ends it is one-sided, but mirrored about node 0 where `mirrored`.
+    points: of the polynomial; near the ends it is one-sided, but mirrored about node 0 where `mirrored`, with the other sign
+    there where the field is `odd`.
     """
     out = np.zeros(((nodes - 1) * factor + 1, nodes))
     for fine, row in enumerate(out):
@@ -22,7 +23,7 @@ def matrix(factor, nodes, points, mirrored=False):
         begin = cell - points // 2 + 1
         begin = min(begin if mirrored else max(begin, 0), nodes - points)
         for node, weight in zip(range(begin, begin + points), lagrange(range(begin, begin + points), cell + part / factor)):
-            row[abs(node)] += weight
+            row[abs(node)] += -weight if odd and node < 0 else weight
     return out
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.march.zoom.refining import Refining, matrix
+from tehl_taichi.values.refining import Refining, matrix
 
 
 @pytest.mark.parametrize("points, degree", [(2, 1), (4, 3), (6, 5)])

@@ -1,0 +1,146 @@
+"""Stresses of a run with a window, against those of the same loads and temperatures on the fine grid of the whole contact."""
+
+import numpy as np
+import pytest
+
+import tehl_taichi as tehl
+from tehl_taichi.fatigue.stress.averaging import AveragedReader, averaged_reader
+from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
+from tehl_taichi.march.zoom.window import Window
+from tehl_taichi.march.zoom.zoomed_passage import ZoomedPassage
+from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
+from tehl_taichi.scene.scales import Scales
+
+GEAR = tehl.scene("gear").replace(srr=-0.2, **{"grid.nx": 64, "grid.ny": 16, "time.x_end": 0.0})
+LINE = GEAR.replace(**{"feature.length": float("inf")})
+OFF_AXIS = GEAR.replace(**{"feature.y": 1e-4, "grid.nx": 64, "grid.ny": 24})
+FACTOR, MOST = 2, 1.9e9  # Pa
+NAMES = ("pressure", "traction_x_a", "traction_x_b", "traction_y_a", "traction_y_b", "temperature_a", "temperature_b")
+
+
+class Loads:
+    """Loads and temperatures of a passage at the nodes x, y (m), as a reader; sharp: what a grid of the run does not see."""
+
+    def __init__(self, scene, x, y, sharp):
+        self.scene, self.x, self.y, self.sharp = scene, x, y, sharp
+        s = Scales.of(scene)
+        way = (scene.path[1] - scene.path[0]) * s.a
+        self.count = round(way / (scene.grid.x_max - scene.grid.x_min) * scene.grid.nx / s.a)
+        self.time = np.arange(self.count + 1) * way / self.count / scene.reference.speed
+
+    def __len__(self):
+        return self.count + 1
+
+    def feature_x(self, n):
+        a = Scales.of(self.scene).a
+        return (self.scene.path[0] + (self.scene.path[1] - self.scene.path[0]) * n / self.count) * a
+
+    def scalar(self, name):
+        return np.ones(len(self))
+
+    def _of(self, n):
+        a, feature = Scales.of(self.scene).a, self.scene.features[0]
+        x, y = self.x[:, None], self.y[None, :] - (0.0 if feature.transverse else feature.y)
+        across = 1.0 if feature.transverse else np.exp(-((y / (0.15 * a)) ** 2))
+        smooth = np.maximum(1 - (x / a) ** 2, 0.0) ** 2 * np.exp(-((self.y[None, :] / (0.9 * a)) ** 8))
+        wide = np.exp(-(((x - self.feature_x(n)) / (0.15 * a)) ** 2)) * across
+        narrow = np.exp(-(((x - self.feature_x(n) - 0.02 * a) / (0.08 * a)) ** 2)) * across if self.sharp else 0.0
+        return smooth, wide + narrow, np.sign(y) * np.abs(y) / a if self.y.size > 1 else 0.0
+
+    def fields(self, n, names):
+        smooth, bump, side = self._of(n)
+        found = {"pressure": MOST * (smooth + 0.7 * bump), "film": 1e-7 + 0 * bump,
+                 "traction_x_a": 1e8 * (smooth - 0.5 * bump), "traction_x_b": -1e8 * (smooth - 0.5 * bump),
+                 "traction_y_a": 3e8 * bump * side, "traction_y_b": -3e8 * bump * side,
+                 "temperature_a": 90 + 50 * smooth + 40 * bump, "temperature_b": 90 + 70 * smooth + 30 * bump}
+        return {name: found[name] + 0 * smooth for name in names}
+
+
+class Whole:
+    """A reader without what it knows of its window."""
+
+    def __init__(self, reader):
+        self.reader, self.x, self.y, self.time, self.feature_x = reader, reader.x, reader.y, reader.time, reader.feature_x
+
+    def __len__(self):
+        return len(self.reader)
+
+    def fields(self, n, names):
+        return self.reader.fields(n, names)
+
+
+def zoomed(scene, factor=FACTOR, since=1):
+    """The ZoomedReader of these loads with a window from entry `since` on."""
+    s, w = Scales.of(scene), Window.of(scene, factor)
+    grid = scene.grid
+    x = np.linspace(grid.x_min, grid.x_max, grid.nx + 1) * s.a
+    half = np.linspace(0, grid.y_max, grid.ny + 1) * s.b
+    y = np.zeros(1) if not scene.rows else half if scene.symmetric else np.concatenate([-half[:0:-1], half])
+    run = Loads(scene, x, y, False)
+    fine = Loads(scene, *(np.interp(np.arange((p.size - 1) * factor + 1) / factor, np.arange(p.size), p) for p in (x, y)), True)
+    found = ZoomedPassage(w)
+    for n in range(since, len(run)):
+        origin = w.origin(run.feature_x(n) / s.a)
+        part = np.ix_(np.arange(origin, origin + w.nx + 1), np.arange(w.row, w.row + w.ny + 1))
+        values = {name: field[part].T for name, field in fine.fields(n, (*NAMES, "film")).items()}
+        found.add(n, origin, values, {})
+    return ZoomedReader(run, found, scene.symmetric)
+
+
+def histories(scene, reader, surface):
+    """(passage, stress at all points of the surface, (depths, x', moments, 6) under the row of the feature)."""
+    centres = np.array([reader.feature_x(n) for n in range(len(reader))])
+    passage = StressHistories(scene, reader, centres, surface=scene.surfaces["ab".index(surface)])
+    y = 0.0 if not scene.rows else scene.features[0].y
+    row = int(np.argmin(np.abs(passage.reader.y - y)))
+    top = at_the_surface(passage)(slice(0, passage.y.size))
+    return passage, top, histories_of(passage, [4e-6, 2e-5, 1e-4], [(row, False)])[0]
+
+
+@pytest.mark.parametrize("scene", [GEAR, LINE, OFF_AXIS], ids=["half domain", "line", "off the axis"])
+@pytest.mark.parametrize("surface", ["a", "b"])
+def test_stresses_are_those_of_the_fine_grid_everywhere(scene, surface):
+    reader = zoomed(scene)
+    _, top, deep = histories(scene, reader, surface)
+    _, whole_top, whole_deep = histories(scene, Whole(reader), surface)
+    assert np.abs(top - whole_top).max() < 0.012 * np.abs(whole_top).max()
+    assert np.abs(deep - whole_deep).max() < 0.012 * np.abs(whole_deep).max()
+    run = histories(scene, reader.base, surface)[2]  # without its window, at the same depths
+    assert abs(run.min() - whole_deep.min()) > 10 * np.abs(deep - whole_deep).max()
+
+
+def test_stresses_of_averaged_loads_are_those_of_the_fine_grid():
+    scene, length = GEAR.replace(**{"grid.nx": 128, "fatigue.thermal_stress": False}), 4e-5
+    reader = zoomed(scene, 2)
+    _, top, deep = histories(scene, averaged_reader(reader, length), "a")
+    _, whole_top, whole_deep = histories(scene, AveragedReader(Whole(reader), length), "a")
+    assert np.abs(top - whole_top).max() < 0.012 * np.abs(whole_top).max()
+    assert np.abs(deep - whole_deep).max() < 0.012 * np.abs(whole_deep).max()
+
+
+def test_the_heat_of_a_window_is_that_of_the_fine_grid():
+    """Temperatures alone: with the slip of two surfaces, late windows and steps that are no whole number of cells."""
+    scene = GEAR.replace(**{"fatigue.shear": False, "time.x_end": 0.01, "grid.nx": 128})
+    reader = zoomed(scene, 2, since=8)
+    for field in ("pressure", "traction_x_a"):
+        for values in reader.zoomed.fields[field]:
+            values *= 0
+    for surface in "ab":
+        found, there = (histories(scene, one, surface) for one in (reader, Whole(reader)))
+        without = scene.replace(**{"fatigue.thermal_stress": False})
+        cold, there_cold = (histories(without, one, surface) for one in (reader, Whole(reader)))
+        for n in (1, 2):
+            heat, whole = found[n] - cold[n], there[n] - there_cold[n]
+            assert np.abs(heat - whole).max() < 0.015 * np.abs(whole).max(), (surface, n)
+
+
+def test_only_the_points_that_are_wanted_are_searched():
+    reader = zoomed(GEAR)
+    reader.searched = {"a": ((-2e-5, 6e-5), (0.0, 3e-5))}
+    passage, top, deep = histories(GEAR, reader, "a")
+    assert -2e-5 <= passage.x.min() and passage.x.max() <= 6e-5 and passage.y.max() <= 3e-5
+    whole, all_top, _ = histories(GEAR, zoomed(GEAR), "a")
+    x, y = (np.flatnonzero(np.isin(*pair)) for pair in ((whole.x, passage.x), (whole.y, passage.y)))
+    top, own = top.reshape(x.size, y.size, -1, 6), all_top.reshape(whole.x.size, whole.y.size, -1, 6)[np.ix_(x, y)]
+    assert np.abs(top - own[:, :, -top.shape[2] :]).max() < 1e-6 * MOST  # later: their way into the contact is shorter

@@ -1,0 +1,36 @@
+"""Points that are searched again where a run has a fine window."""
+
+import numpy as np
+
+import tehl_taichi as tehl
+from tehl_taichi.runs import zoomed_points
+from tehl_taichi.scene.scales import Scales
+
+GEAR = tehl.scene("gear")
+X, Y = np.linspace(-2e-4, 2e-4, 41), np.linspace(0, 1e-4, 11)
+
+
+def found(at, deep, rough=False, surface="a"):
+    """A search whose stress is largest at this column and row, below it at that column."""
+    stress, under = np.full((X.size, Y.size), 1e8), np.full((4, X.size), 3e8)
+    stress[at], under[2, deep] = 4e8, 6e8
+    summary = {"surface": surface, "rough": rough, "Fi_max": 1.0, "statistics": 1, "below": {"Fi_max": 1.5, "statistics": 2}}
+    return tehl.SearchResult(summary, feature_frame_x=X, feature_frame_y=Y, findley_stress=stress, findley_stress_under_row=under)
+
+
+def test_the_worst_points_of_the_run_are_inside():
+    (left, right), (low, high) = zoomed_points.ends(GEAR, found((20, 4), 28))["a"]
+    side = zoomed_points.BESIDE * Scales.of(GEAR).a
+    assert np.allclose((left, right, low, high), (X[20] - side, X[28] + side, Y[4] - side, Y[4] + side))
+
+
+def test_of_rough_surfaces_all_points_are_searched():
+    assert zoomed_points.ends(GEAR, found((20, 4), 28, rough=True)) == {}
+
+
+def test_numbers_of_all_points_are_those_of_the_run():
+    run = {"a": {"statistics": 1, "stressed": 5, "below": {"statistics": 2}}}
+    part = {"a": {"Fi_max": 1.2, "statistics": 8, "below": {"Fi_max": 1.6, "statistics": 9}}}
+    whole = zoomed_points.completed(part, run)["a"]
+    assert whole == {"Fi_max": 1.2, "statistics": 1, "stressed": 5, "below": {"Fi_max": 1.6, "statistics": 2}}
+    assert part["a"]["statistics"] == 8
