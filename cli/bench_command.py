@@ -33,6 +33,8 @@ def conclusions(
     quick: bool = typer.Option(False, "--quick", help="run the reference asperity and dent on coarse grids"),
     columns: int = typer.Option(0, help="columns of the finest grid (128, 256, 512 for all cases; default: 512, the asperities "
                                         "and dents of 1.5 um 2048)", min=0),
+    zoom: int = typer.Option(0, help="judge the whole passage by runs on 256 x 64 cells with a window of this factor, 2, 4 or "
+                                     "8, and stresses averaged over fatigue.length"),
     as_json: bool = JSON,
     force: bool = FORCE,
     threads: Optional[int] = THREADS,
@@ -44,18 +46,22 @@ def conclusions(
     """
     from tehl_cli.tables import list_table
     from tehl_taichi.profiles import conclusions as suite
+    from tehl_taichi.profiles import zoomed_conclusions
 
     from tehl_taichi.scene import scene
 
-    results = Results(out, "conclusions", force, more=("md",))
-    rows = suite.run(out, quick, say, workers, threads, columns)
-    base = scene("gear")
-    judged = suite.verdicts(rows, base.fatigue.endurance)
+    results, base = Results(out, "conclusions", force, more=("md",)), scene("gear")
+    judge = zoomed_conclusions if zoom else suite
+    if zoom:
+        rows, shown = judge.run(out, zoom, quick, say, threads), {("all", "whole"): "surface", suite.DEEP["whole"]: "below"}
+    else:
+        rows, shown = suite.run(out, quick, say, workers, threads, columns), {("all", one): one for one in suite.WINDOWS}
+    judged = judge.verdicts(rows, base.fatigue.endurance)
     if not as_json:
-        list_table("Findley stress, MPa", ("case", "body", *suite.WINDOWS),
-                   [(r.name, r.body, *suite.cells(r)) for r in rows])
+        list_table("Findley stress, MPa", ("case", "body", *shown.values()),
+                   [(r.name, r.body, *suite.cells(r, tuple(shown))) for r in rows])
         list_table("the thesis' conclusions", ("statement", "verdict", "figures"), judged)
-    results.page(suite.page(rows, judged, base))
+    results.page(judge.page(rows, judged, base))
     results.finish([suite.plain_row(r) for r in rows], lambda plt: suite.chart(plt, rows), as_json,
                    verdicts=[dict(zip(("statement", "verdict", "figures"), one)) for one in judged])
 

@@ -23,6 +23,8 @@ EVERY = 1024  # columns of which each moment is stored; every second of twice as
 DECIDE = "asperity 1.5 um", "dent 1.5 um"
 SLIPS = (-0.12, 0.0, 0.12)
 NEAR_ONE = 0.9
+PARTS = "to 0.5 a", "whole"  # of the passage, about which there are statements
+SIDES = ("all", "to 0.5 a"), ("all", "whole"), ("no thermal stress", "whole"), ("pressure", "whole")  # of those about the slip
 # what a table says of an error that is not known, by the code of the reason
 UNKNOWN = {"exit": "exit not resolved", "peak": "peak not resolved", "rival": "a rival grows"}
 BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # both are worked out here, for all grids and loads together
@@ -89,7 +91,7 @@ def rows(name, description, folder, grids, progress=None):
         if progress:
             progress(f"{name}: {nx} x {ny} cells")
         try:
-            store = folder / f"{_slug(name)}-{nx}x{ny}.zarr"
+            store = folder / f"{file_name(name)}-{nx}x{ny}.zarr"
             passages.append(passage_stresses.read_passage(_sized(description, nx, ny), store))
         except NotConverged as error:
             passages, reason = [], f"{nx} x {ny} cells: {error}"
@@ -121,21 +123,22 @@ def error_of(key, passages, body="a"):
     return estimated_error([one.values[body][key] for one in passages], passages[-1].doubts.get(key, ""), courses)
 
 
-def verdicts(rows, limit):
-    """[(statement, verdict, figures)] from the rows; limit: sigma_eF, Pa. First of body a, which the thesis judges, then of the
-    worse body and of the mating one."""
+def verdicts(rows, limit, windows=PARTS, loads=SIDES):
+    """[(statement, verdict, figures)] from the rows; limit: sigma_eF, Pa; windows, loads: of the keys in their values. First of
+    body a, which the thesis judges, then of the worse body and of the mating one."""
     of_a = {r.name: r for r in rows if not r.reason and r.body == "a"}
     of_b = {r.name: r for r in rows if not r.reason and r.body == "b"}
     kinds = [kind for kind in dict.fromkeys(r.name.rsplit(", SRR", 1)[0] for r in rows) if kind.startswith("asperity")]
-    out = [*_thesis(_reader(of_a), kinds, limit, ""), *_deeper(of_a, "")]
-    if r := of_a.get("asperity 1.5 um, SRR -0.12"):
+    out = [*_thesis(_reader(of_a), kinds, limit, "", windows, loads), *_deeper(of_a, "", windows)]
+    if (r := of_a.get("asperity 1.5 um, SRR -0.12")) and np.isfinite(r.friction).all():
         out.append(("friction on the asperity is larger near the inlet than near the outlet",
                     "follows" if r.friction[0] > r.friction[1] else "does not follow",
                     f"{r.friction[0]:.4f} at -0.5 a, {r.friction[1]:.4f} at 0.5 a"))
     if not of_b:
         return out
-    both = _thesis(lambda *case: larger(_reader(of_a)(*case), _reader(of_b)(*case)), kinds, limit, "worse body: ")
-    return out + [*both, *_deeper(of_b, "body b: "), *_mating(of_a, of_b)]
+    both = _thesis(lambda *case: larger(_reader(of_a)(*case), _reader(of_b)(*case)), kinds, limit, "worse body: ",
+                   windows, loads)
+    return out + [*both, *_deeper(of_b, "body b: ", windows), *_mating(of_a, of_b, windows[0])]
 
 
 def _reader(by_name):
@@ -153,32 +156,32 @@ def larger(one, other):
     return f, e if f - e > g + d else max(e, d) if np.isfinite(e + d) else np.nan
 
 
-def _thesis(get, kinds, limit, whose):
+def _thesis(get, kinds, limit, whose, windows, loads):
     """Statements about the level without slip, dents, and the sign of the slip."""
-    for window in ("to 0.5 a", "whole"):
+    for window in windows:
         f, e = get("asperity 1.5 um", 0.0, ("all", window))
         yield (f"{whose}an asperity brings Fi near or over 1 (>= {NEAR_ONE:g}) at about 2 GPa without slip; {window}",
                decide(f - NEAR_ONE * limit, e), _pair((f, e), (NEAR_ONE * limit, 0.0)))
         for srr in SLIPS:
             pair = [get(kind, srr, ("all", window)) for kind in ("asperity 1.5 um", "dent 1.5 um")]
             yield f"{whose}a dent gives less than an asperity of the same size (SRR {srr:+g}); {window}", *_compared(*pair)
-    for loads, window in (("all", "to 0.5 a"), ("all", "whole"), ("no thermal stress", "whole"), ("pressure", "whole")):
+    for load, window in loads:
         for kind in kinds:
-            if kind == "asperity 1.5 um" or loads == "all":
-                pair = [get(kind, srr, (loads, window)) for srr in (-0.12, 0.12)]
-                yield f"{whose}Fi(SRR -0.12) > Fi(SRR +0.12): {kind}; {loads}; {window}", *_compared(*pair)
+            if kind == "asperity 1.5 um" or load == "all":
+                pair = [get(kind, srr, (load, window)) for srr in (-0.12, 0.12)]
+                yield f"{whose}Fi(SRR -0.12) > Fi(SRR +0.12): {kind}; {load}; {window}", *_compared(*pair)
 
 
-def _deeper(by_name, whose):
+def _deeper(by_name, whose, windows):
     """Whether the critical point of the reference asperity lies below the surface."""
     for name, r in by_name.items():
         if name.startswith("asperity 1.5 um"):
-            for window, key in DEEP.items():
-                pair = [(r.values[each], r.errors[each]) for each in (key, ("all", window))]
+            for window in windows:
+                pair = [(r.values[each], r.errors[each]) for each in (DEEP[window], ("all", window))]
                 yield f"{whose}the critical point lies below the surface: {name}; {window}", *_compared(*pair)
 
 
-def _mating(of_a, of_b, window="to 0.5 a"):
+def _mating(of_a, of_b, window):
     """Whether body b has the larger stress, at the surface or below it."""
     for name in of_b:
         pair = [larger(*((r.values[key], r.errors[key]) for key in (("all", window), DEEP[window])))
@@ -207,7 +210,8 @@ def _with_error(f, error, doubt=""):
     return f"{f / 1e6:.0f} ({UNKNOWN.get(code_of(doubt), 'error unknown')})"
 
 
-def _slug(name):
+def file_name(name):
+    """Name of a case in files."""
     signed = name.replace("SRR -", "SRR minus ").replace("SRR +", "SRR plus ")
     return "-".join("".join(c if c.isalnum() else " " for c in signed).split())
 
@@ -228,10 +232,12 @@ def _title(loads, window):
     return window if loads == "all" else both
 
 
-def page(rows, judged, scene_):
+COLUMNS = [*(("all", window) for window in WINDOWS), ("no thermal stress", "whole"), ("pressure", "whole"), *DEEP.values(),
+           ALONE]
+
+
+def page(rows, judged, scene_, columns=COLUMNS):
     """Markdown of the table and the verdicts."""
-    columns = [("all", window) for window in WINDOWS] + [("no thermal stress", "whole"), ("pressure", "whole")]
-    columns += [*DEEP.values(), ALONE]
     lines = ["| case | body | grid | " + " | ".join(_title(*column) for column in columns) + " |",
              "|---" * (len(columns) + 3) + "|"]
     for r in rows:

@@ -134,7 +134,7 @@ def test_a_course_is_that_of_a_window():
 
 
 def test_every_case_has_its_own_store():
-    names = [conclusions._slug(name) for name in conclusions.cases()]
+    names = [conclusions.file_name(name) for name in conclusions.cases()]
     assert len(set(names)) == len(names) == 21
 
 

@@ -15,7 +15,8 @@ def found(at, deep, rough=False, surface="a"):
     stress, under = np.full((X.size, Y.size), 1e8), np.full((4, X.size), 3e8)
     stress[at], under[2, deep] = 4e8, 6e8
     summary = {"surface": surface, "rough": rough, "Fi_max": 1.0, "statistics": 1, "below": {"Fi_max": 1.5, "statistics": 2}}
-    return tehl.SearchResult(summary, feature_frame_x=X, feature_frame_y=Y, findley_stress=stress, findley_stress_under_row=under)
+    return tehl.SearchResult(summary, feature_frame_x=X, feature_frame_y=Y, findley_stress=stress,
+                             findley_stress_under_row=under)
 
 
 def test_the_worst_points_of_the_run_are_inside():

@@ -1,0 +1,71 @@
+"""Conclusions over the whole passage, by runs with a fine window: Findley stress over fatigue.length of both bodies."""
+
+from pathlib import Path
+
+import numpy as np
+from tehl_taichi.profiles import conclusions
+from tehl_taichi.profiles.conclusions import ConclusionRow
+from tehl_taichi.profiles.passage_stresses import DEEP, DEPTHS
+
+from tehl_taichi.errors import NotConverged
+from tehl_taichi.fatigue.pressure_alone import searched
+from tehl_taichi.runs.single_run import completed
+
+GRID, QUICK_GRID = (256, 64), (32, 8)  # cells of the runs
+SURFACE, BELOW = ("all", "whole"), DEEP["whole"]
+COLUMNS = SURFACE, BELOW
+
+
+def run(folder, factor, quick=False, progress=None, threads=None):
+    """Rows of all cases, two each, from windows of this factor; their stores lie in `folder` and are used again. progress:
+    called with a line of text."""
+    out = []
+    for name, description in conclusions.cases(quick).items():
+        if progress:
+            progress(f"{name}: a window of factor {factor}")
+        out += rows(name, _sized(description, quick, factor), Path(folder), threads)
+    return out
+
+
+def rows(name, description, folder, threads=None):
+    """ConclusionRows of both bodies from a run with a window."""
+    g, srr = description.grid, description.operation.srr
+    grid = f"{g.nx}x{g.ny} zoom {description.zoom.factor}"
+    try:
+        summary = completed(description, folder / f"{conclusions.file_name(name)}-zoom{description.zoom.factor}.zarr",
+                            threads=threads).summary
+    except NotConverged as error:
+        return [ConclusionRow(name, srr, {}, {}, (np.nan, np.nan), reason=str(error), grid=grid)]
+    bodies = [one for one in (summary["fatigue"], summary["fatigue"].get("other")) if one]
+    return [_of_body(name, srr, searched(one), grid) for one in sorted(bodies, key=lambda one: one["surface"])]
+
+
+def _sized(description, quick, factor):
+    nx, ny = QUICK_GRID if quick else GRID
+    return description.replace(**{"grid.nx": nx, "grid.ny": ny, "zoom.factor": factor})
+
+
+def _of_body(name, srr, found, grid):
+    """Row of one body by its summary: of averaged stresses, where the cells of the window are less than half of the length."""
+    parts = [found.get("averaged", found), found.get("averaged", found)["below"]]
+    values = {key: part["findley_stress_max_Pa"] for key, part in zip(COLUMNS, parts)}
+    errors = {key: _error(part) * value for (key, value), part in zip(values.items(), parts)}
+    doubts = {key: (part.get("unknown") or {}).get("Fi_max", "") for key, part in zip(COLUMNS, parts)}
+    return ConclusionRow(name, srr, {**values, DEPTHS[BELOW]: parts[1]["depth_m"]}, errors, (np.nan, np.nan), doubts,
+                         body=found["surface"], grid=grid)
+
+
+def _error(part):
+    """Relative; nan where it is not known."""
+    bar = part.get("error", {}).get("Fi_max")
+    return np.nan if bar is None else bar / part["Fi_max"]
+
+
+def verdicts(rows, limit):
+    """[(statement, verdict, figures)] over the whole passage, as of :func:`tehl_taichi.profiles.conclusions.verdicts`."""
+    return conclusions.verdicts(rows, limit, ("whole",), (SURFACE,))
+
+
+def page(rows, judged, description):
+    """Markdown of the table and the verdicts."""
+    return conclusions.page(rows, judged, description, COLUMNS)
