@@ -4,6 +4,8 @@ from typing import Any
 
 import typer
 
+AUTO = "auto"  # as in tehl_taichi.values.quantity, which takes longer to import
+
 
 def amount(text) -> Any:
     """The number of an option; text with a unit, as in "3.8 mm", stays text, which is read where the quantity is known."""
@@ -11,6 +13,11 @@ def amount(text) -> Any:
         return float(text)
     except ValueError:
         return text.strip()
+
+
+def whole_or_auto(text) -> Any:
+    """The factor of a zoom window: a whole number or "auto"; other text stays, which the scene refuses."""
+    return int(text) if text.strip().isdigit() else text.strip()
 
 
 def metres(option, value):

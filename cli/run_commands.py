@@ -1,10 +1,10 @@
 """`tehl run` and `tehl resume`."""
 
 from pathlib import Path
-from typing import List, Optional
+from typing import Any, List, Optional
 
 import typer
-from tehl_cli.amount import number
+from tehl_cli.amount import AUTO, number, whole_or_auto
 from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import Live, say
 from tehl_cli.scene_options import GRIDS, check_rows, given_by
@@ -37,8 +37,9 @@ def run(
     steady: bool = typer.Option(False, "--steady", help="compute the steady contact only"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
-    zoom: Optional[int] = typer.Option(None, help="add a fine window that rides with the feature, 2, 4 or 8 times as fine as "
-                                                  "the grid"),
+    zoom: Any = typer.Option(None, parser=whole_or_auto, metavar="2|4|8|auto",
+                             help="add a fine window that rides with the feature, 2, 4 or 8 times as fine as the grid; auto: "
+                                  "only if the grid needs it, as fine as it takes"),
     run_in: Optional[int] = typer.Option(None, help="passages of run-in before the one that is stored, at most: steel of "
                                                     "bodies with a yield stress flows"),
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
@@ -75,7 +76,7 @@ def run(
          "oil.name": oil, "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps,
          "thermal.on": thermal,
          "bending_limit": bending_limit, "torsion_limit": torsion_limit,
-         "fatigue.on": fatigue, "zoom.factor": zoom, "time.run_in": run_in,
+         "fatigue.on": fatigue, "zoom.factor": None if zoom == AUTO else zoom, "time.run_in": run_in,
          "numerics.estimate_error": estimate_error, "numerics.precision": precision, "time.steady_only": steady or None},
         grid, set_ or [])
     description = find_changed(scene, changes)
@@ -88,6 +89,8 @@ def run(
         return _print_scene(description)
     with Live(quiet, curves) as live:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
+        if zoom == AUTO and description.transient and done.finished:
+            done = tehl.zoom(done.path, AUTO, threads=threads, progress=live)
     _print(done, as_json, description.warnings())
     if description.time.steps == 0 and not quiet:
         _print_time(done)
@@ -124,7 +127,9 @@ def resume(
 
 def zoom(
     store: Path = typer.Argument(..., help="store of a finished run with a passage"),
-    factor: int = typer.Option(4, help="cells of the window in a cell of the grid: 2, 4 or 8; 0 removes the window"),
+    factor: Any = typer.Option("4", parser=whole_or_auto, metavar="0|2|4|8|auto",
+                               help="cells of the window in a cell of the grid: 2, 4 or 8; 0 removes the window; auto: only if "
+                                    "the grid needs one, as fine as it takes"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
     quiet: bool = typer.Option(False, "--quiet", help="print no progress"),

@@ -173,7 +173,7 @@ def resume(path: Name, *, steps: int | None = None, threads: int | None = None, 
     return single_run.resume(path, steps=steps, threads=threads, progress=progress)
 
 
-def zoom(path: Name, factor: int = 4, *, threads: int | None = None, progress: "Progress | None" = None) -> "Run":
+def zoom(path: Name, factor: int | str = 4, *, threads: int | None = None, progress: "Progress | None" = None) -> "Run":
     """Add a fine window that rides with the feature to a finished run; the steps of the run are kept.
 
     Stresses, the fatigue search and error bars are computed again with the window. Interrupted, `resume` finishes it.
@@ -182,8 +182,9 @@ def zoom(path: Name, factor: int = 4, *, threads: int | None = None, progress: "
     ----------
     path : path
         Folder of the store.
-    factor : {4, 2, 8, 0}
-        Cells of the window in a cell of the grid, along each axis; 0 removes the window.
+    factor : {4, 2, 8, 0, "auto"}
+        Cells of the window in a cell of the grid, along each axis; 0 removes the window; "auto": none where the grid resolves
+        the passage, else 4, and 8 where 4 does not settle the largest pressure.
     threads, progress
         As for :func:`tehl_taichi.run`.
 

@@ -15,6 +15,7 @@ from tehl_taichi.scene import Scene
 from tehl_taichi.store.load_scene import find
 from tehl_taichi.values.coded_warning import texts
 from tehl_taichi.values.path_arguments import folder_of, path_of
+from tehl_taichi.values.quantity import AUTO
 
 
 def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, force: bool = False, threads: int | None = None,
@@ -66,8 +67,10 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     return _continue(path, rest, threads, began, progress)
 
 
-def zoom(path: str | PathLike, factor: int = 4, *, threads: int | None = None, progress: Progress | None = None) -> Run:
+def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = None, progress: Progress | None = None) -> Run:
     """As :func:`tehl_taichi.zoom`."""
+    if factor == AUTO:
+        return _zoom_as_needed(path, threads, progress or Progress())
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
 
@@ -81,6 +84,22 @@ def zoom(path: str | PathLike, factor: int = 4, *, threads: int | None = None, p
         return before
     runtime.check(threads=threads)
     return _continue(before.path, scene, threads, began, progress)
+
+
+def _zoom_as_needed(path, threads, progress):
+    """The run with the first window that settles its largest pressure, or the finest; as it is where it needs none."""
+    from tehl_taichi.runs import zoom_need
+
+    done = open(path)
+    for factor in zoom_need.factors(done):
+        progress.say(f"{zoom_need.reason(done)}: a window of factor {factor}")
+        done = zoom(path, factor, threads=threads, progress=progress)
+        if zoom_need.settled(done):
+            break
+    else:
+        if not done.scene.zooms:
+            progress.say("this grid resolves the passage: no window is needed")
+    return done
 
 
 def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:

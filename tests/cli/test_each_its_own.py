@@ -223,12 +223,13 @@ def test_lines_of_a_study_begin_with_the_first_row_and_end_with_the_last(tmp_pat
     from tehl_taichi.runs.sweep import sweeping
     from tehl_taichi.runs.sweep.plan import plan
 
-    over = {"srr": [-0.1, 0.1], "feature.height": list(np.linspace(0.5e-6, 1.5e-6, count))}
+    over = {"srr": list(np.linspace(-0.1, 0.1, count + 1)), "feature.height": list(np.linspace(0.5e-6, 1.5e-6, count))}
     study = sweeping.run(plan(SMALL, over), tmp_path / "s.zarr", workers=1, work=case)
     figure = study_plots._lines(study, "fatigue_Fi_max")
     shown = [trace for trace in figure.traces if "y" in trace]
     assert len(shown) == lines
-    assert list(shown[0]["y"]) == pytest.approx([0.5, 0.5]) and list(shown[-1]["y"]) == pytest.approx([1.5, 1.5])
+    for one, height in zip((shown[0], shown[-1]), (0.5, 1.5)):
+        assert list(one["y"]) == pytest.approx([height] * (count + 1))
 
 
 def test_a_case_forgets_the_numbers_of_its_first_try(tmp_path):

@@ -1,0 +1,31 @@
+"""Need of a finished run for a fine window, and which window settles it."""
+
+from tehl_taichi.march.accuracy import coarse_runs
+from tehl_taichi.scene import resolution
+
+FACTORS = 4, 8  # tried one after the other; the first has a window of factor 2 beside it for its error bars
+
+DECIDING = {"p_max_Pa": "the largest pressure", "h_min_m": "the smallest film"}  # numbers whose error a window may settle
+
+
+def factors(run):
+    """Factors of windows to try, in this order; none where the grid resolves features and pressures."""
+    return FACTORS if reason(run) else ()
+
+
+def reason(run):
+    """Reason why a run needs a window, in words; "" where it needs none."""
+    few = [sight for sight in resolution.sights(run.scene) if sight.cells < resolution.ENOUGH]
+    if few:
+        return f"a feature of {few[0].cells:.2g} cells"
+    place = coarse_runs.resolved(run.scene, run.store, run.store.scalar)
+    if place is not None:
+        return f"pressure peaks of a few cells behind {place:.2f} a"
+    errors = run.summary["transient"].get("error", {})
+    unknown = [words for key, words in DECIDING.items() if key in errors and errors[key] is None]
+    return f"the error of {unknown[0]} is not known" if unknown and any(errors.values()) else ""
+
+
+def settled(run):
+    """Whether the error of the largest pressure of a run with a window is known."""
+    return run.summary["transient"]["error"].get("p_max_Pa") is not None

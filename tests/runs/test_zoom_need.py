@@ -1,0 +1,67 @@
+"""Windows that a run needs: none where its grid resolves everything, else the first that settles the largest pressure."""
+
+import types
+
+import pytest
+
+import tehl_taichi as tehl
+from tehl_taichi.runs import single_run, zoom_need
+from tehl_taichi.runs.progress import Progress
+
+SCENE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid.nx": 256})
+
+
+def finished(scene, resolved=None, error=None, monkeypatch=None):
+    """A finished run whose grid resolves the pressure up to a place, with the error of its largest pressure."""
+    monkeypatch.setattr(zoom_need.coarse_runs, "resolved", lambda *given: resolved)
+    return types.SimpleNamespace(scene=scene, store=types.SimpleNamespace(scalar=None), path="a.zarr",
+                                 summary={"transient": {"error": {"p_max_Pa": error}}})
+
+
+def test_a_resolved_passage_needs_none(monkeypatch):
+    run = finished(SCENE, error=1e7, monkeypatch=monkeypatch)
+    assert zoom_need.reason(run) == "" and zoom_need.factors(run) == ()
+
+
+def test_numbers_of_unknown_error_need_one_unless_all_are_unknown(monkeypatch):
+    run = finished(SCENE, error=1e7, monkeypatch=monkeypatch)
+    run.summary["transient"]["error"]["h_min_m"] = None
+    assert zoom_need.reason(run) == "the error of the smallest film is not known" and zoom_need.factors(run) == (4, 8)
+    assert zoom_need.reason(finished(SCENE, monkeypatch=monkeypatch)) == ""  # no coarse-grid runs
+
+
+@pytest.mark.parametrize("changes, resolved, words", [({"grid.nx": 64}, None, "a feature of 8.8 cells"),
+                                                      ({}, 0.8, "pressure peaks of a few cells behind 0.80 a")])
+def test_few_cells_and_sharp_peaks_need_one(monkeypatch, changes, resolved, words):
+    assert zoom_need.reason(finished(SCENE.replace(**changes), resolved, monkeypatch=monkeypatch)) == words
+
+
+class Said(Progress):
+    """Keeps what is said."""
+
+    def __init__(self):
+        self.texts = []
+
+    def say(self, text):
+        self.texts.append(text)
+
+
+@pytest.mark.parametrize("errors, tried", [({4: 1e7}, [4]), ({4: None, 8: 1e7}, [4, 8]), ({4: None, 8: None}, [4, 8])])
+def test_factors_are_tried_until_the_pressure_is_known(monkeypatch, errors, tried):
+    done, progress, real = [], Said(), single_run.zoom
+
+    def zoom(path, factor, **given):
+        done.append(factor)
+        return finished(SCENE.replace(**{"zoom.factor": factor}), 0.8, errors[factor], monkeypatch)
+
+    monkeypatch.setattr(single_run, "open", lambda path: finished(SCENE, 0.8, None, monkeypatch), raising=False)
+    monkeypatch.setattr(single_run, "zoom", zoom)
+    run = real("a.zarr", "auto", progress=progress)
+    assert done == tried and run.scene.zoom.factor == tried[-1] and len(progress.texts) == len(tried)
+
+
+def test_a_run_without_need_stays_as_it_is(monkeypatch):
+    progress, before = Said(), finished(SCENE, error=1e7, monkeypatch=monkeypatch)
+    monkeypatch.setattr(single_run, "open", lambda path: before, raising=False)
+    assert single_run.zoom("a.zarr", "auto", progress=progress) is before
+    assert progress.texts == ["this grid resolves the passage: no window is needed"]
