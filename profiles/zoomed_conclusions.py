@@ -36,8 +36,7 @@ def rows(name, description, folder, threads=None):
                             threads=threads).summary
     except NotConverged as error:
         return [ConclusionRow(name, srr, {}, {}, (np.nan, np.nan), reason=str(error), grid=grid)]
-    bodies = [one for one in (summary["fatigue"], summary["fatigue"].get("other")) if one]
-    return [_of_body(name, srr, searched(one), grid) for one in sorted(bodies, key=lambda one: one["surface"])]
+    return [_of_body(name, srr, body, searched(one), grid) for body, one in sorted(summary["fatigue_by_surface"].items())]
 
 
 def _sized(description, quick, factor):
@@ -45,14 +44,14 @@ def _sized(description, quick, factor):
     return description.replace(**{"grid.nx": nx, "grid.ny": ny, "zoom.factor": factor})
 
 
-def _of_body(name, srr, found, grid):
+def _of_body(name, srr, body, found, grid):
     """Row of one body by its summary: of averaged stresses, where the cells of the window are less than half of the length."""
     parts = [found.get("averaged", found), found.get("averaged", found)["below"]]
     values = {key: part["findley_stress_max_Pa"] for key, part in zip(COLUMNS, parts)}
     errors = {key: _error(part) * value for (key, value), part in zip(values.items(), parts)}
     doubts = {key: (part.get("unknown") or {}).get("Fi_max", "") for key, part in zip(COLUMNS, parts)}
     return ConclusionRow(name, srr, {**values, DEPTHS[BELOW]: parts[1]["depth_m"]}, errors, (np.nan, np.nan), doubts,
-                         body=found["surface"], grid=grid)
+                         body=body, grid=grid)
 
 
 def _error(part):

@@ -5,6 +5,7 @@ coarse-grid runs are.
 """
 
 import functools
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -24,6 +25,8 @@ FIELDS = {"pressure": ("Pa", "pressure in the zoom window"), "film": ("m", "film
              for body in "ab" for axis in "xy"},
           "temperature_mid": ("degC", "mid-film temperature in the zoom window"),
           **{f"temperature_{body}": ("degC", f"temperature of surface {body} in the zoom window") for body in "ab"}}
+EARLY = {**dict.fromkeys((coarse_runs.FI, coarse_runs.AVERAGED), coarse_runs.RESOLVED),
+         **dict.fromkeys((coarse_runs.BELOW, coarse_runs.AVERAGED_BELOW), coarse_runs.RESOLVED_BELOW)}
 DIMS = ["zoom_moment", "zoom_x", "zoom_y"]
 
 
@@ -74,11 +77,25 @@ def corrected(saved, found, searches, passage, domain):
                if name not in grids[0] or reading.value != grids[0][name].value}
     sizes, reasons = bars(grids)
     sizes, reasons = ({name: one for name, one in part.items() if name in changed} for part in (sizes, reasons))
+    if found[-1].passage.entries[:1] > [1]:
+        sizes = _with_early(sizes, passage.get("passage_parts", {}))
     values = {name: grids[-1][name].value for name in changed}
     known, unknown, parts = widened(sizes, reasons, values, domain, saved.scene.operation.temperature, passing=True)
     kept = {name: why for name, why in passage.get("passage_unknown", {}).items() if name not in changed}
     return {"passage_error": passage.get("passage_error", {}) | known, "passage_unknown": kept | unknown,
             "passage_parts": passage.get("passage_parts", {}) | parts}
+
+
+def _with_early(sizes, parts):
+    """Bars {name: size or None} of a window that begins late, in which indices have that of the moments before it, too, which
+    no window shows: that of the run while it resolves the pressure. parts: "passage_parts" of the run."""
+    out = dict(sizes)
+    for name, size in sizes.items():
+        surface, _, index = name.partition(":")
+        early = parts.get(coarse_runs.of_surface(surface, EARLY.get(index, "")), {}).get("grid")
+        if size is not None and early is not None:
+            out[name] = math.hypot(size, early)
+    return out
 
 
 def summary(saved, found, errors, searches):

@@ -27,7 +27,7 @@ def body(name, Fi, error, averaged=None):
 
 def rows(tmp_path, monkeypatch, *bodies):
     """Rows of a run with these summaries, the worse first."""
-    run = types.SimpleNamespace(summary={"fatigue": {**bodies[0], "other": bodies[1]}})
+    run = types.SimpleNamespace(summary={"fatigue_by_surface": {one["surface"]: one for one in bodies}})
     monkeypatch.setattr(zoomed_conclusions, "completed", lambda *given, **more: run)
     description = zoomed_conclusions._sized(conclusions.cases()[CASE], False, 4)
     assert description.zooms and description.zoom.factor == 4

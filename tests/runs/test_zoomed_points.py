@@ -29,6 +29,15 @@ def test_of_rough_surfaces_all_points_are_searched():
     assert zoomed_points.ends(GEAR, found((20, 4), 28, rough=True)) == {}
 
 
+def test_bars_of_a_late_window_have_those_of_the_moments_before_it():
+    from tehl_taichi.runs.zoomed_run import _with_early
+
+    sizes = {"a:Fi_max": 3.0, "a:averaged_Fi_max": 5.0, "b:Fi_max": None, "a:below_Fi_max": 1.0, "p_max_Pa": 2.0}
+    parts = {"a:resolved_Fi_max": {"grid": 4.0}, "b:resolved_Fi_max": {"grid": 1.0}, "a:resolved_below_Fi_max": {"grid": None}}
+    assert _with_early(sizes, parts) == {"a:Fi_max": 5.0, "a:averaged_Fi_max": np.hypot(5, 4), "b:Fi_max": None,
+                                         "a:below_Fi_max": 1.0, "p_max_Pa": 2.0}
+
+
 def test_numbers_of_all_points_are_those_of_the_run():
     run = {"a": {"statistics": 1, "stressed": 5, "below": {"statistics": 2}}}
     part = {"a": {"Fi_max": 1.2, "statistics": 8, "below": {"Fi_max": 1.6, "statistics": 9}}}
