@@ -9,8 +9,10 @@ import os
 import signal
 import sys
 import threading
+import time
 import warnings
 
+BEGAN = time.perf_counter()  # of the command
 FAILED, INTERRUPTED = 1, 4  # as in tehl_taichi.errors, which takes longer to import than a hasty Ctrl-C
 AGAIN = 0.01  # s until a dropped stop comes again: by then the callback that dropped it has ended
 SELDOM = 50_000, 20, 100  # new objects between searches for garbage, of which imports and kernels make hardly any: 700, 10, 10

@@ -9,6 +9,7 @@ from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import Live, say
 from tehl_cli.scene_options import GRIDS, check_rows, given_by
 from tehl_cli.stdout import print_json, put
+from tehl_cli.timing import print_budget, timed
 
 
 def register(app):
@@ -62,6 +63,7 @@ def run(
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
     curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal during the run"),
+    timing: bool = typer.Option(False, "--timing", help="print where the time of the command went"),
 ):
     """Run one contact: steady start, passage of the feature, stresses, fatigue; write all results to a store.
 
@@ -87,11 +89,11 @@ def run(
     if dry_run:
         say_idle(context, "--dry-run prints text", "as_json")
         return _print_scene(description)
-    with Live(quiet, curves) as live:
+    with Live(quiet, curves) as live, timed(live if timing else None) as budget:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
         if zoom == AUTO and description.transient and done.finished:
             done = tehl.zoom(done.path, AUTO, threads=threads, progress=live)
-    _print(done, as_json, description.warnings())
+    _print(done, as_json, description.warnings(), budget)
     if description.time.steps == 0 and not quiet:
         _print_time(done)
 
@@ -147,11 +149,14 @@ def zoom(
     _print(done, as_json)
 
 
-def _print(run, as_json, printed=()):
-    """printed: warnings that were printed before the run."""
+def _print(run, as_json, printed=(), budget=None):
+    """printed: warnings that were printed before the run; budget: its TimeBudget or None."""
     from tehl_cli.tables import summary_table
 
-    print_json(run.summary) if as_json else summary_table(run.summary, printed)
+    timing = {"timing_s": dict(budget.spent)} if budget else {}
+    print_json({**run.summary, **timing}) if as_json else summary_table(run.summary, printed)
+    if budget and not as_json:
+        print_budget(budget)
 
 
 def _print_scene(scene):

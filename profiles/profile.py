@@ -6,13 +6,13 @@ transform the time which it takes alone, both measured in the same process on on
 
 import contextlib
 import functools
-import importlib
 import time
 
 import numpy as np
 from tehl_taichi.profiles import measure
 from tehl_taichi.profiles.traffic import IN_S, bytes_of
 
+from tehl_taichi.engine.watched_calls import wrapped
 from tehl_taichi.scene import scene
 
 # stage: the method or function that it is (below the package); a stage may contain others
@@ -91,20 +91,9 @@ def gaps(stages, kernels, count=5):
 @contextlib.contextmanager
 def _timed(stages):
     """{stage: [calls, seconds]} of what happens inside. cProfile of Python 3.12 loses calls around those of Taichi."""
-    spent, before = {stage: [0, 0.0] for stage in stages}, []
-    for stage, place in stages.items():
-        module, _, path = place.partition(":")
-        owner = importlib.import_module(f"tehl_taichi.{module}")
-        *outer, name = path.split(".")
-        for part in outer:
-            owner = getattr(owner, part)
-        before.append((owner, name, getattr(owner, name)))
-        setattr(owner, name, _counted(getattr(owner, name), spent[stage]))
-    try:
+    spent = {stage: [0, 0.0] for stage in stages}
+    with wrapped(stages, lambda stage, function: _counted(function, spent[stage])):
         yield spent
-    finally:
-        for owner, name, function in before:
-            setattr(owner, name, function)
 
 
 def _counted(function, spent):

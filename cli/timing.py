@@ -1,0 +1,32 @@
+"""Table of the parts of a command's time."""
+
+import contextlib
+
+
+@contextlib.contextmanager
+def timed(live):
+    """The TimeBudget of a command whose progress is shown by `live`; None without one."""
+    if live is None:
+        yield None
+        return
+    from tehl_cli.entry import BEGAN
+
+    from tehl_taichi.runs.time_budget import TimeBudget
+
+    budget, shown = TimeBudget(BEGAN), live.stage
+
+    def stage(name, done, total):
+        budget.stage(name, done, total)
+        shown(name, done, total)
+
+    live.stage = stage
+    with budget.watching():
+        yield budget
+
+
+def print_budget(budget):
+    """Print the parts, longest first."""
+    from tehl_cli.tables import list_table
+
+    list_table("where the time went", ("part", "s", "share"),
+               [(name, f"{seconds:.2f}", f"{100 * share:.0f} %") for name, seconds, share in budget.rows()])
