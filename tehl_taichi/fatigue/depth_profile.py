@@ -36,7 +36,7 @@ def ladder(passage):
     first, last = SHALLOWEST * passage.dx * factor, DEEPEST * passage.a
     count = max(5, int(np.ceil(np.log(last / first) / np.log(RATIO))) + 1)
     depths = np.geomspace(first, last, count)
-    more = int(np.ceil(np.log(factor) / np.log(depths[1] / depths[0]) - 1e-9))
+    more = int(np.log(factor) / np.log(depths[1] / depths[0]) + 1e-9)
     return np.concatenate([depths[0] * (depths[0] / depths[1]) ** np.arange(more, 0, -1.0), depths])
 
 

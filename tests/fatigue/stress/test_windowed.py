@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi.fatigue import depth_profile
 from tehl_taichi.fatigue.stress.averaging import AveragedReader, averaged_reader
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
@@ -133,6 +134,15 @@ def test_the_heat_of_a_window_is_that_of_the_fine_grid():
         for n in (1, 2):
             heat, whole = found[n] - cold[n], there[n] - there_cold[n]
             assert np.abs(heat - whole).max() < 0.015 * np.abs(whole).max(), (surface, n)
+
+
+@pytest.mark.parametrize("factor", [2, 4, 8])
+def test_depths_are_those_of_the_run_and_down_to_half_a_cell_of_the_window(factor):
+    reader = zoomed(GEAR, factor)
+    centres = np.array([reader.feature_x(n) for n in range(len(reader))])
+    own, run = (depth_profile.ladder(StressHistories(GEAR, one, centres)) for one in (reader, reader.base))
+    half = run[0] / factor
+    assert np.allclose(own[-run.size :], run) and half * (1 - 1e-9) <= own[0] < half * depth_profile.RATIO
 
 
 def test_only_the_points_that_are_wanted_are_searched():
