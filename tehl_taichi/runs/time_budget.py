@@ -10,6 +10,7 @@ from tehl_taichi.runs.progress import ERRORS, FATIGUE, PASSAGE, STEADY, ZOOM
 SETUP, MACHINE_CODE, REST = "imports and scene", "kernels: tracing, machine code or cache", "summary and writing"
 LABELS = {STEADY: "steady start", PASSAGE: "passage: rest", FATIGUE: "fatigue: rest", ERRORS: "coarse-grid runs: waiting",
           ZOOM: "zoom window: rest"}
+ENDED = {STEADY: "contact alone, new store"}  # what follows the end of a stage, if not REST
 # what the main thread does inside a stage: {name: function or method}
 MARCHED = {"pressure": "pressure.newton:PressureSolver.solve", "temperatures": "heat.temperatures:FilmHeat.solve",
            "start values": "march.prediction:Prediction.put", "snapshots": "march.snapshot:take"}
@@ -29,8 +30,8 @@ class TimeBudget:
     def stage(self, name, done, total):
         """`done` of `total` parts of a stage are through."""
         self._charge()
-        self.stage_now = name if done < total else REST
-        self.open[0] = LABELS.get(self.stage_now, REST)
+        self.stage_now = name if done < total else ENDED.get(name, REST)
+        self.open[0] = LABELS.get(self.stage_now, self.stage_now)
 
     @contextlib.contextmanager
     def watching(self):

@@ -47,6 +47,14 @@ def test_parts_inside_a_stage_are_taken_out_of_it(clock):
     assert sum(share for *_, share in rows[:-1]) == pytest.approx(1.0)
 
 
+def test_what_follows_the_start_is_no_summary(clock):
+    budget = TimeBudget(0.0)
+    budget.stage("steady start", 1, 1)
+    clock.pass_(2.0)
+    budget.stage("passage", 0, 3)
+    assert budget.spent["contact alone, new store"] == 2.0 and REST not in budget.spent
+
+
 def test_calls_of_other_stages_and_threads_belong_to_the_stage(clock):
     budget = TimeBudget(0.0)
     call = budget._wrapper("pressure", lambda: clock.pass_(1.0))
