@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Union
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.runs import compare_labels
 from tehl_taichi.runs.compare_labels import flat
-from tehl_taichi.runs.open_results import INSIDE, RUN, kind
+from tehl_taichi.runs.open_results import INSIDE, RUN, kind, open_run
 from tehl_taichi.values.path_arguments import folder_of
 
 if TYPE_CHECKING:
@@ -106,11 +106,13 @@ def compare(*paths: "str | PathLike | Run | Study | ContactSet") -> Union[Compar
 
 
 def _one_kind(folders):
-    """What all of them are. Raises SceneError where they are of two kinds."""
+    """What all of them are. Raises SceneError where they are of two kinds, StoreError where one is nothing."""
     kinds = [kind(folder) for folder in folders]
     other = next((n for n, one in enumerate(kinds) if one != kinds[0]), None)
     if other is None:
         return kinds[0]
+    for folder in (folder for folder, one in zip(folders, kinds) if one == RUN):
+        open_run(folder)  # refused where nothing lies there, or an unfinished flank
     inside = next((Path(folder) / INSIDE[one][1] for folder, one in zip(folders, kinds) if one != RUN), None)
     raise SceneError(f"{folders[0]} is a {kinds[0]} and {folders[other]} is a {kinds[other]}; allowed: results of one kind (a "
                      f"run of the {next(one for one in kinds if one != RUN)} is {inside})")

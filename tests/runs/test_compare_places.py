@@ -143,6 +143,11 @@ def test_studies_over_other_keys_and_results_of_two_kinds_are_refused(studies, f
         tehl.compare(flanks[0], flanks[0])
 
 
+def test_a_flank_that_was_killed_before_its_first_file_is_no_run(flanks, tmp_path):
+    with pytest.raises(tehl.StoreError, match="is not a run, study, flank, bearing or cam: it has none of"):
+        tehl.compare(flanks[0], tmp_path)
+
+
 def test_bearings_are_compared_by_ring(tmp_path):
     made = [tehl.bearing("6206", load=load, speed=1500.0, run=False, folder=tmp_path / name)
             for name, load in (("low", 2000.0), ("high", 4000.0))]
