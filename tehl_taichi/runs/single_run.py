@@ -28,17 +28,27 @@ def _run(scene, path, force, threads, arch, progress, case=False):
     """Run as :func:`run`; case: the store is part of a study or a flank and lies in it."""
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
-    from tehl_taichi.scene import memory_demand
     from tehl_taichi.store.store_draft import CaseDraft, StoreDraft
 
     runtime.check(arch, threads)
     path = None if path is None else path_of("path", path)
-    memory_demand.check(scene)
+    _check_memory(scene)
     place = (CaseDraft(path) if case else StoreDraft(path, force) if path is not None
              else StoreDraft.fresh(Path("runs"), scene.name))
     with place, _stoppable(place.path, place):
         runtime.start_or_join(arch, threads)
         return _begin(scene, place, _Clock(began), progress)
+
+
+def _check_memory(scene):
+    """Raises SceneError where there is not the memory that a run of the scene needs."""
+    from tehl_taichi.scene import memory_demand
+
+    if not scene.runs_in:
+        return memory_demand.check(scene)
+    from tehl_taichi.plastic import memory
+
+    memory_demand.check(scene, memory.needed(scene))
 
 
 def open(path: str | PathLike, stand_in: bool = False) -> Run:
@@ -128,10 +138,9 @@ def check_version(path, run):
 def _continue(path, scene, threads, began, progress):
     """Continue with the store at `path` to the end of `scene`."""
     from tehl_taichi.engine import runtime
-    from tehl_taichi.scene import memory_demand
     from tehl_taichi.store.store import Store
 
-    memory_demand.check(scene)
+    _check_memory(scene)
     with _stoppable(path), Store.write(path) as saved:
         steady = {name: saved.needed(name) for name in ("steady_error", "steady_unknown")}
         steady |= {name: saved.known(name) for name in ("steady_parts", "steady_domain", "steady_unknown_codes",

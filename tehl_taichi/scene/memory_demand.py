@@ -12,7 +12,9 @@ def needed(scene):
     return BASE + (scene.grid.nx + 1) * (scene.rows + 1) * (NODE + ACROSS * places)
 
 
-def check(scene):
-    """Raises SceneError where this process cannot have the memory that a run of the scene needs."""
+def check(scene, run_in=0.0):
+    """Raises SceneError where this process cannot have the memory that a run of the scene needs; run_in: bytes that its run-in
+    needs more."""
     cells = f"{scene.grid.nx}" + (f" x {scene.grid.ny}" if scene.rows else "")
-    memory_limit.check(needed(scene), f"a run on {cells} cells")
+    of = f" with run-in ({memory_limit.words(run_in)})" if run_in else ""
+    memory_limit.check(needed(scene) + run_in, f"a run on {cells} cells{of}")
