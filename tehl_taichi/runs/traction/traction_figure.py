@@ -39,10 +39,16 @@ def _along(ax, found):
     _, name, unit, _ = AXES[found.across]
     ax.set_xlabel(f"{name} ({unit})" if unit else name)
     x = np.array([row[AXES[found.across][0]] for row in found.rows])
-    if x.min() > 0 and x.max() > DECADES * x.min():
+    if x.min() > 0 and (x.max() > DECADES * x.min() or _evenly_in_logarithm(x)):
         ax.set_xscale("log")
         ax.xaxis.set_major_formatter("{x:g}")  # plain numbers: no text is read as mathematics
         ax.xaxis.set_minor_formatter("")
+
+
+def _evenly_in_logarithm(x):
+    """Whether three or more values have equal ratios, as those of low:high:N:log."""
+    steps = np.diff(np.log(np.unique(x)))
+    return len(steps) > 1 and np.ptp(steps) < 1e-6 * steps.max()
 
 
 def series(found, rows, key):

@@ -76,6 +76,9 @@ def test_the_figure_has_error_bars_and_a_logarithmic_axis_for_decades(tmp_path, 
     assert high[1] - low[1] == pytest.approx(2 * 0.02) and axes[2].get_xscale() == "linear"
     wide = traction("gear", [0.1], speed="0.1:10:3:log", path=tmp_path / "w.zarr", workers=1, work=made)
     assert traction_figure.drawn(FigureStyle(), wide).axes[-1].get_xscale() == "log"
+    near = traction("gear", [0.1], speed="1:9:3:log", path=tmp_path / "n.zarr", workers=1, work=made)
+    even = traction("gear", [0.1], speed="1:9:3", path=tmp_path / "e.zarr", workers=1, work=made)
+    assert [traction_figure.drawn(FigureStyle(), one).axes[-1].get_xscale() for one in (near, even)] == ["log", "linear"]
 
 
 @pytest.mark.parametrize("options, said", [
