@@ -22,9 +22,30 @@ def _of(found, a):
     if found.findley_stress_under_row is not None:
         under = found.findley_stress_under_row[1:]
         places.append(x[np.nonzero((under >= BELOW * under.max()).any(axis=0))])
-    side = BESIDE * a
-    along, across = np.concatenate(places), y[rows]
-    return (float(along.min() - side), float(along.max() + side)), (float(across.min() - side), float(across.max() + side))
+    return _around(np.concatenate(places), x, BESIDE * a), _around(y[rows], y, BESIDE * a)
+
+
+def _around(some, places, side):
+    """From where to where these lie, with `side` more; without an end where that is beyond all places."""
+    low, high = float(some.min() - side), float(some.max() + side)
+    return (low if low > places.min() else -np.inf), (high if high < places.max() else np.inf)
+
+
+def at_an_end(found, ends_of, cell):
+    """Whether the worst point of a body, at the surface or below it, lies at an end of what was searched of it, so that a worse
+    one may lie beyond; found: SearchResult; ends_of: of :func:`ends`; cell: m."""
+    for name, one in found.by_surface.items():
+        points = [one.numbers, *([one.numbers["below"]] if "below" in one.numbers else [])]
+        if name in ends_of and any(_near(ends_of[name], part, cell) for part in points):
+            return True
+    return False
+
+
+def _near(box, part, cell):
+    """Whether a point lies within a cell of an end of a box."""
+    (left, right), (low, high) = box
+    x, y = part["x_m"], part["y_m"]
+    return min(x - left, right - x, y - low, high - y) < cell
 
 
 def completed(summaries, run):

@@ -57,15 +57,25 @@ def _until(saved):
 def search(saved, found, alone, progress):
     """Search the fatigue of every level, of the points that matter in `alone`, the SearchResult of the run. Returns ({surface:
     summary}, arrays) of the finest."""
-    from tehl_taichi.runs.stored_fatigue import assessed
-
     results = []
     for level in reversed(found):  # the finest first, whose stresses by the heat of the run the others take over
-        level.reader.searched, level.reader.kept_heat = zoomed_points.ends(saved.scene, alone), found[-1].reader.kept_heat
-        until = coarse_runs.resolved(saved.scene, level.reader, level.reader.scalar)
-        results.append(assessed(saved, saved.scene, progress, until, reader=level.reader))
+        level.reader.kept_heat = found[-1].reader.kept_heat
+        results.append(_searched(saved, level, zoomed_points.ends(saved.scene, alone), progress))
         level.searches = zoomed_points.completed(results[-1].summaries, alone.summaries)
     return found[-1].searches, results[0].to_arrays()
+
+
+def _searched(saved, level, ends, progress):
+    """The SearchResult of a level at the points between these ends, at all where the worst lies at an end."""
+    from tehl_taichi.runs.stored_fatigue import assessed
+
+    reader = level.reader
+    until, reader.searched = coarse_runs.resolved(saved.scene, reader, reader.scalar), ends
+    found = assessed(saved, saved.scene, progress, until, reader=reader)
+    if not zoomed_points.at_an_end(found, ends, float(reader.x[1] - reader.x[0])):
+        return found
+    reader.searched = {}
+    return assessed(saved, saved.scene, progress, until, reader=reader)
 
 
 def corrected(saved, found, searches, passage, domain):

@@ -1,6 +1,7 @@
 """Points that are searched again where a run has a fine window."""
 
 import numpy as np
+import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.runs import zoomed_points
@@ -23,6 +24,20 @@ def test_the_worst_points_of_the_run_are_inside():
     (left, right), (low, high) = zoomed_points.ends(GEAR, found((20, 4), 28))["a"]
     side = zoomed_points.BESIDE * Scales.of(GEAR).a
     assert np.allclose((left, right, low, high), (X[20] - side, X[28] + side, Y[4] - side, Y[4] + side))
+    assert zoomed_points.ends(GEAR, found((1, 1), 39))["a"] == ((-np.inf, np.inf), (-np.inf, Y[1] + side))
+
+
+@pytest.mark.parametrize("changes, cut", [({}, False), ({"x_m": -9.9e-5}, True), ({"x_m": 5.9e-5}, True), ({"y_m": 0.0}, False),
+                                          ({"y_m": 2.9e-5}, True)])
+@pytest.mark.parametrize("part", ["surface", "below"])
+def test_a_worst_point_at_an_end_of_what_was_searched_is_seen(changes, cut, part):
+    points = {"surface": {"x_m": 0.0, "y_m": 1e-5}, "below": {"x_m": 1e-5, "y_m": 1e-5}}
+    points[part] |= changes
+    deep = {"Fi_max": 1.0, **points["below"]}
+    result = tehl.SearchResult({"surface": "b", "Fi_max": 1.0, **points["surface"], "below": deep})
+    box = {"b": ((-1e-4, 6e-5), (-np.inf, 3e-5))}
+    assert zoomed_points.at_an_end(result, box, 2e-6) is cut
+    assert not zoomed_points.at_an_end(result, {}, 2e-6)
 
 
 def test_of_rough_surfaces_all_points_are_searched():
