@@ -8,8 +8,6 @@ from tehl_taichi.engine.fftw import DOUBLE, SINGLE, real_of
 from tehl_taichi.fatigue.stress.row_stress import RowStress
 from tehl_taichi.fatigue.stress.thermal_stress import WORKERS, ThermalStress
 from tehl_taichi.fatigue.stress.unit_loads import HELD
-from tehl_taichi.fatigue.stress.windowed import WindowedStresses
-from tehl_taichi.fatigue.stress.windowed_heat import WindowedHeat
 
 
 def _no_progress(done, total):
@@ -44,7 +42,7 @@ def _thermal(passage):
     """Its ThermalStress, where the scene wants it."""
     if not passage.scene.has_thermal_stress:
         return None
-    return WindowedHeat.on_the_surface(passage) if has_window(passage) else passage.heat(ThermalStress)
+    return _windowed_heat().on_the_surface(passage) if has_window(passage) else passage.heat(ThermalStress)
 
 
 def has_window(passage):
@@ -63,7 +61,15 @@ def _histories(passage, depths, kinds, notify, thermal, meanwhile=lambda: None):
     return passage.resting(out, np.asarray(depths)[:, None], [row for row, _ in kinds])
 
 
+def _windowed_heat():
+    from tehl_taichi.fatigue.stress.windowed_heat import WindowedHeat
+
+    return WindowedHeat
+
+
 def _windowed(passage, depths, kinds, thermal):
+    from tehl_taichi.fatigue.stress.windowed import WindowedStresses
+
     return WindowedStresses(passage, depths, [row for row, _ in kinds], thermal)
 
 
@@ -108,7 +114,7 @@ def _heat(passage, depths, deep, rows, out, notify):
     """Thermal stress below the surface added to the histories `out` (x', kinds, depths, moments, 6); deep: numbers of the
     depths there; notify: called with those done."""
     first, part = min(depths[n] for n in deep), np.zeros_like(out[:, 0, 0])
-    thermal = WindowedHeat.below(passage, first) if has_window(passage) else passage.below(first)
+    thermal = _windowed_heat().below(passage, first) if has_window(passage) else passage.below(first)
     entries = np.unique(passage.entries)
     with ThreadPoolExecutor(WORKERS) as pool:
         for done, (n, found) in enumerate(zip(deep, pool.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):
