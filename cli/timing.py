@@ -9,11 +9,11 @@ def timed(live):
     if live is None:
         yield None
         return
-    from tehl_cli.entry import BEGAN
+    from tehl_cli.entry import CLOCK
 
     from tehl_taichi.runs.time_budget import TimeBudget
 
-    budget, shown = TimeBudget(BEGAN), live.stage
+    budget, shown = TimeBudget(CLOCK["began"]), live.stage
 
     def stage(name, done, total):
         budget.stage(name, done, total)

@@ -18,6 +18,7 @@ from pathlib import Path
 from tehl_taichi.errors import SceneError
 
 VARIABLE, OLDER, KEY, GROUP, PREFIX = "TEHL_PLUGINS", "TEHL_ENTRIES", "plugins", "tehl_taichi.plugins", "tehl_plugins."
+LARGEST = 10**7  # bytes of a file that is read; a larger one is refused by whoever reads it
 
 
 def folders():
@@ -76,7 +77,7 @@ def of_file(path):
 
 def _toml(path):
     """The dictionary of a TOML file, {} of what is none."""
-    if not path.name.lower().endswith(".toml") or not path.is_file():
+    if not path.name.lower().endswith(".toml") or not path.is_file() or path.stat().st_size > LARGEST:
         return {}
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))

@@ -28,7 +28,7 @@ SHORT = {"run": f"{SMALL} --steps 0 --force --out made.zarr", "sweep": "--dry-ru
          "roller": "--no-run --no-figure", "cam": "--grid 64 --isothermal --no-figure --workers 1",
          "resume": "--steps 1 --quiet", "zoom": "--factor 0 --quiet", "animate": "--frames 2 --dpi 40 --force",
          "plot": "--dpi 40 --force",
-         "crack": "--dpi 40", "fatigue": "--dpi 40",
+         "crack": "--dpi 40", "fatigue": "--dpi 40", "compare": "--force",
          "report": "--force", "export": "--force"}
 AT_REST = "--isothermal --steps 0 --no-fatigue --no-estimate-error --quiet --force --set time.steady_only=true"
 FENCED = re.compile(r"^```\w*\n(.*?)^```", re.M | re.S)
@@ -153,7 +153,7 @@ def test_a_suite_of_the_pages_begins(words, tmp_path, monkeypatch):
     def begun(*args, **options):
         raise Error("it would compute now")
 
-    for place in (*SUITES.values(), "confirmed_starts.confirm"):
+    for place in (*SUITES.values(), "confirmed_starts.confirm", "zoomed_conclusions.run"):
         monkeypatch.setattr(f"tehl_taichi.profiles.{place}", begun)
     monkeypatch.setattr("tehl_taichi.engine.runtime.start", lambda **settings: None)
     monkeypatch.setattr("tehl_taichi.profiles.stability_scenes.cases", lambda thermal=False: {})
