@@ -12,7 +12,7 @@ import threading
 import time
 import warnings
 
-CLOCK = {"began": time.perf_counter()}  # of the command
+CLOCK: dict[str, float] = {}  # "began": the command
 FAILED, INTERRUPTED = 1, 4  # as in tehl_taichi.errors, which takes longer to import than a hasty Ctrl-C
 AGAIN = 0.01  # s until a dropped stop comes again: by then the callback that dropped it has ended
 SELDOM = 50_000, 20, 100  # new objects between searches for garbage, of which imports and kernels make hardly any: 700, 10, 10
@@ -48,8 +48,7 @@ def _leave(end):
 
 def _run():
     """The exit code of the command in sys.argv."""
-    if "tehl_taichi" in sys.modules:  # a command after others in one process
-        CLOCK["began"] = time.perf_counter()
+    CLOCK["began"] = time.perf_counter()
     debug = "--debug" in sys.argv
     if debug:
         sys.argv.remove("--debug")

@@ -13,14 +13,15 @@ from tehl_taichi.profiles import measure
 from tehl_taichi.profiles.traffic import IN_S, bytes_of
 
 from tehl_taichi.engine.watched_calls import wrapped
+from tehl_taichi.runs.time_budget import MARCHED
 from tehl_taichi.scene import scene
 
 # stage: the method or function that it is (below the package); a stage may contain others
-STAGES = {"pressure: Newton": "pressure.newton:PressureSolver.solve", "pressure: Krylov": "pressure.linear.solver:Krylov.solve",
+STAGES = {"pressure: Newton": MARCHED["pressure"], "pressure: Krylov": "pressure.linear.solver:Krylov.solve",
           "pressure: deflection": "pressure.deflection:Bending.bend",
           "pressure: build": "pressure.linear.preconditioner:AdditiveLines.build",
-          "temperatures": "heat.temperatures:FilmHeat.solve", "temperatures: accept": "heat.temperatures:FilmHeat.accept",
-          "guess": "march.prediction:Prediction.put", "snapshot": "march.snapshot:take"}
+          "temperatures": MARCHED["temperatures"], "temperatures: accept": "heat.temperatures:FilmHeat.accept",
+          "guess": MARCHED["start values"], "snapshot": MARCHED["snapshots"]}
 
 FULL, QUICK = (256, 64, 30), (64, 16, 4)  # columns, rows, steps
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.fatigue import findley, von_mises
+from tehl_taichi.fatigue.stress.averaging import has_window
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import WorstPoint
 from tehl_taichi.values.interpolation import lagrange
@@ -32,7 +33,7 @@ class Profile:
 
 def ladder(passage):
     """Depths (m) searched, from half a cell to 0.9 a; with a window those of the run and shallower ones."""
-    factor = passage.reader.window.factor if hasattr(passage.reader, "window") else 1
+    factor = passage.reader.window.factor if has_window(passage.reader) else 1
     first, last = SHALLOWEST * passage.dx * factor, DEEPEST * passage.a
     count = max(5, int(np.ceil(np.log(last / first) / np.log(RATIO))) + 1)
     depths = np.geomspace(first, last, count)

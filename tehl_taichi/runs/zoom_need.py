@@ -4,7 +4,6 @@ from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.scene import resolution
 
 FACTORS = 4, 8  # tried one after the other; the first has a window of factor 2 beside it for its error bars
-
 DECIDING = {"p_max_Pa": "the largest pressure", "h_min_m": "the smallest film"}  # numbers whose error a window may settle
 
 
@@ -15,15 +14,19 @@ def factors(run):
 
 def reason(run):
     """Reason why a run needs a window, in words; "" where it needs none."""
-    few = [sight for sight in resolution.sights(run.scene) if sight.cells < resolution.ENOUGH]
-    if few:
-        return f"a feature of {few[0].cells:.2g} cells"
+    if few := few_cells(run.scene):
+        return f"a feature of {few[0]:.2g} cells"
     place = coarse_runs.resolved(run.scene, run.store, run.store.scalar)
     if place is not None:
         return f"pressure peaks of a few cells behind {place:.2f} a"
     errors = run.summary["transient"].get("error", {})
     unknown = [words for key, words in DECIDING.items() if key in errors and errors[key] is None]
     return f"the error of {unknown[0]} is not known" if unknown and any(errors.values()) else ""
+
+
+def few_cells(scene):
+    """Cells across each feature that has fewer than it takes for an error below 5 %."""
+    return [sight.cells for sight in resolution.sights(scene) if sight.cells < resolution.ENOUGH]
 
 
 def settled(run):

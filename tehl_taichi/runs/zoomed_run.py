@@ -15,9 +15,8 @@ from tehl_taichi.march.accuracy.domain_error import widened
 from tehl_taichi.march.accuracy.error_bars import bars
 from tehl_taichi.march.zoom import zoomed_passage
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader, extreme
-from tehl_taichi.runs import zoomed_points
+from tehl_taichi.runs import zoom_need, zoomed_points
 from tehl_taichi.runs.progress import ZOOM
-from tehl_taichi.scene import resolution
 from tehl_taichi.scene.scales import Scales
 
 FIELDS = {"pressure": ("Pa", "pressure in the zoom window"), "film": ("m", "film thickness in the zoom window"),
@@ -50,8 +49,7 @@ def levels(saved, progress):
 
 def _until(saved):
     """Position (a) of the feature up to which the run needs no window; None where it needs one everywhere."""
-    few = any(sight.cells < resolution.ENOUGH for sight in resolution.sights(saved.scene))
-    return None if few else coarse_runs.resolved(saved.scene, saved, saved.scalar)
+    return None if zoom_need.few_cells(saved.scene) else coarse_runs.resolved(saved.scene, saved, saved.scalar)
 
 
 def search(saved, found, alone, progress):

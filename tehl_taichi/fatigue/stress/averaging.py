@@ -84,4 +84,9 @@ class WindowedAverages(AveragedReader):
 
 def averaged_reader(reader, length):
     """The averages of a reader over a square of `length` (m), with its window where it has one."""
-    return (WindowedAverages if hasattr(reader, "window") else AveragedReader)(reader, length)
+    return (WindowedAverages if has_window(reader) else AveragedReader)(reader, length)
+
+
+def has_window(reader):
+    """Whether a fine window is part of what is read."""
+    return hasattr(reader, "window")

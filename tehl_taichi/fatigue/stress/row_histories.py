@@ -5,6 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from tehl_taichi.engine.fftw import DOUBLE, SINGLE, real_of
+from tehl_taichi.fatigue.stress.averaging import has_window
 from tehl_taichi.fatigue.stress.row_stress import RowStress
 from tehl_taichi.fatigue.stress.thermal_stress import WORKERS, ThermalStress
 from tehl_taichi.fatigue.stress.unit_loads import HELD
@@ -42,19 +43,14 @@ def _thermal(passage):
     """Its ThermalStress, where the scene wants it."""
     if not passage.scene.has_thermal_stress:
         return None
-    return _windowed_heat().on_the_surface(passage) if has_window(passage) else passage.heat(ThermalStress)
-
-
-def has_window(passage):
-    """Whether a fine window is part of what a passage is read from."""
-    return hasattr(passage.reader, "window")
+    return _windowed_heat().on_the_surface(passage) if has_window(passage.reader) else passage.heat(ThermalStress)
 
 
 def _histories(passage, depths, kinds, notify, thermal, meanwhile=lambda: None):
     """(x', kinds, depths, moments, 6) Pa; thermal: that of the surface, if it is among the depths; meanwhile: what this thread
     does while others find stresses."""
     deep = [n for n, depth in enumerate(depths) if depth] if passage.scene.has_thermal_stress else []
-    blocks, stresses = len(passage.blocks), (_windowed if has_window(passage) else _Stresses)(passage, depths, kinds, thermal)
+    blocks, stresses = len(passage.blocks), _Stresses(passage, depths, kinds, thermal)
     out = passage.gathered((len(kinds), len(depths)), stresses, lambda done, _: notify(done, blocks + len(deep)), meanwhile)
     if deep:
         _heat(passage, depths, deep, [row for row, _ in kinds], out, lambda n: notify(blocks + n, blocks + len(deep)))
@@ -67,30 +63,44 @@ def _windowed_heat():
     return WindowedHeat
 
 
-def _windowed(passage, depths, kinds, thermal):
-    from tehl_taichi.fatigue.stress.windowed import WindowedStresses
-
-    return WindowedStresses(passage, depths, [row for row, _ in kinds], thermal)
-
-
 class _Stresses:
     """Stresses of some entries of a passage, with the heat of points at the surface; arguments as for :func:`_histories`."""
 
     def __init__(self, passage, depths, kinds, thermal):
-        self.passage, self.operators = passage, _operators(passage, depths, kinds)
+        self.passage, self.of_loads = passage, _of_loads(passage, depths, kinds)
         self.heat = thermal.on([row for row, _ in kinds]) if thermal else None
 
     def __call__(self, block):
         """(entries, columns, kinds, depths, 6) Pa of entries that have a place in one block."""
+        out = self.of_loads(block)
+        for fields, tick in zip(out, self.passage.ticks[block] if self.heat else []):
+            fields[:, :, 0][..., HELD] += self.heat(tick)
+        return out
+
+
+def _of_loads(passage, depths, kinds):
+    """Function of a block that gives the stresses of its loads alone."""
+    if not has_window(passage.reader):
+        return _LoadStresses(passage, depths, kinds)
+    from tehl_taichi.fatigue.stress.windowed import WindowedStresses
+
+    return WindowedStresses(passage, depths, [row for row, _ in kinds], _kind(passage))
+
+
+class _LoadStresses:
+    """Stresses of the loads of some entries, on the grid of a passage; arguments as for :func:`_histories`."""
+
+    def __init__(self, passage, depths, kinds):
+        self.passage, self.operators = passage, _operators(passage, depths, kinds)
+
+    def __call__(self, block):
+        """As :class:`_Stresses`, without heat."""
         passage, size = self.passage, self.passage.block
         loads = np.zeros((3, size, passage.grid_x.size, passage.reader.y.size), real_of(_kind(passage)))
         for entry in block:
             loads[:, entry % size] = passage.loads(int(entry))
         found = [operator(*loads[..., rows]) for operator, rows in self.operators]
-        out = (np.concatenate(found, axis=2) if len(found) > 1 else found[0])[block % size]
-        for fields, tick in zip(out, passage.ticks[block] if self.heat else []):
-            fields[:, :, 0][..., HELD] += self.heat(tick)
-        return out
+        return (np.concatenate(found, axis=2) if len(found) > 1 else found[0])[block % size]
 
 
 def _kind(passage):
@@ -114,7 +124,7 @@ def _heat(passage, depths, deep, rows, out, notify):
     """Thermal stress below the surface added to the histories `out` (x', kinds, depths, moments, 6); deep: numbers of the
     depths there; notify: called with those done."""
     first, part = min(depths[n] for n in deep), np.zeros_like(out[:, 0, 0])
-    thermal = _windowed_heat().below(passage, first) if has_window(passage) else passage.below(first)
+    thermal = _windowed_heat().below(passage, first) if has_window(passage.reader) else passage.below(first)
     entries = np.unique(passage.entries)
     with ThreadPoolExecutor(WORKERS) as pool:
         for done, (n, found) in enumerate(zip(deep, pool.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.engine.fftw import DOUBLE, SINGLE, real_of
+from tehl_taichi.engine.fftw import real_of
 from tehl_taichi.fatigue.stress.row_stress import RowStress
-from tehl_taichi.fatigue.stress.unit_loads import ACROSS, HELD
+from tehl_taichi.fatigue.stress.unit_loads import ACROSS
 from tehl_taichi.values.refining import matrix
 
 POINTS = 6  # of the polynomials between the nodes of the run
@@ -61,27 +61,22 @@ class Extent:
 
 
 class WindowedStresses:
-    """Stresses of some entries of a passage, with the heat of points at the surface, as those without a window
+    """Stresses of the loads of some entries of a passage, as those without a window
     (:mod:`tehl_taichi.fatigue.stress.row_histories`).
 
     passage: StressHistories of a reader with a `window` (:class:`Extent`), `base` (the reader of the run alone) and
-    `inside(entry, names)`, the Inside of that moment or None. depths: m, increasing; rows: of the reader, by their numbers.
+    `inside(entry, names)`, the Inside of that moment or None. depths: m, increasing; rows: of the reader, by their numbers;
+    kind: precision.
     """
 
-    def __init__(self, passage, depths, rows, thermal):
-        self.passage, self.reader, self.rows = passage, passage.reader, np.asarray(rows)
-        self.kind = SINGLE if self.reader.y.size > 1 else DOUBLE
-        self.base = BasePart(passage, depths, self.rows, self.kind)
-        self.window = WindowPart(passage, depths, self.rows, self.kind)
-        self.heat = thermal.on(rows) if thermal else None
+    def __init__(self, passage, depths, rows, kind):
+        rows = np.asarray(rows)
+        self.base, self.window = BasePart(passage, depths, rows, kind), WindowPart(passage, depths, rows, kind)
 
     def __call__(self, block):
         """(entries, columns, rows, depths, 6) Pa of entries that have a place in one block."""
-        passage = self.passage
         out = self.base(block)
         self.window.add(out, block)
-        for fields, tick in zip(out, passage.ticks[block] if self.heat else []):
-            fields[:, :, 0][..., HELD] += self.heat(tick)
         return out
 
 
@@ -175,7 +170,6 @@ class Folded:
             some = np.flatnonzero(np.asarray(components) == sign)
             out[..., some] = np.moveaxis(np.tensordot(across.astype(field.dtype), wide[..., some], (1, 1)), 0, 1)
         return out
-
 
     def along(self, field, columns):
         """(fine columns, ...) of a field (columns, ...)."""

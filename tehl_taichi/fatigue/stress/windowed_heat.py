@@ -34,6 +34,7 @@ class WindowedHeat:
     def __init__(self, passage, kind, of_change):
         self.passage, self.reader = passage, passage.reader
         self.kind, self.nodes = kind, RunNodes(passage, np.zeros(0, int))
+        self.entries = {int(tick): entry for entry, tick in enumerate(passage.ticks)}
         found = [self.reader.difference(n, f"temperature_{passage.surface.name}") for n in range(len(self.reader))]
         self.frame = WindowFrame(passage, found) if any(found) else None
         self.own = self._of_window(of_change, found) if self.frame else None
@@ -46,14 +47,14 @@ class WindowedHeat:
         return passage.heat_of(self.kind, passage.rises(run), grid, passage.mirrored, passage.a, passage.surface.speed)
 
     def on(self, rows):
-        """Function of an entry (its number) that gives sxx, syy, sxy on these rows, (columns, rows, 3) Pa."""
+        """Function of a tick (one of the equal steps) that gives sxx, syy, sxy on these rows, (columns, rows, 3) Pa."""
         nodes, places, own = RunNodes(self.passage, np.asarray(rows)), *self._within(rows)
         run, window = self.base.on(nodes.rows), self.own.on(own) if self.own and own else None
 
-        def stresses(entry):
-            out = nodes.refined(run(entry)[None], [self.passage.band(entry)], ACROSS[list(HELD)])[0]
-            if window and entry > self.frame.begin:
-                self.frame.add(out, places, window(entry - self.frame.begin), entry)
+        def stresses(tick):
+            out = nodes.refined(run(tick)[None], [self._band(tick)], ACROSS[list(HELD)])[0]
+            if window and tick > self.frame.begin:
+                self.frame.add(out, places, window(tick - self.frame.begin), tick)
             return out
 
         return stresses
@@ -62,13 +63,16 @@ class WindowedHeat:
         """(rows, entries, columns, 6) Pa at `depth` on some rows."""
         places, own = self._within(rows)
         between_rows = self._run_rows(depth, rows)
-        entries = {int(tick): entry for entry, tick in enumerate(self.passage.ticks)}
-        bands = [self.passage.band(entries.get(tick, -1)) for tick in range(between_rows.shape[1])]
+        bands = [self._band(tick) for tick in range(between_rows.shape[1])]
         out = self.nodes.refined_along(np.moveaxis(between_rows, 0, 2), bands)
         if self.own and own:
             for n, field in enumerate(np.moveaxis(self.own.rows(depth, own), 0, 2)):
                 self.frame.add(out[self.frame.begin + n], places, field, self.frame.begin + n)
         return np.moveaxis(out, 2, 0)
+
+    def _band(self, tick):
+        """Columns that the histories take of the entry at a tick; none where there is none."""
+        return self.passage.band(self.entries.get(int(tick), -1))
 
     def _run_rows(self, depth, rows):
         """(rows, entries, columns of the run, 6) Pa, kept for windows of other factors: waves have values between rows, too."""
