@@ -7,7 +7,8 @@ from pathlib import Path
 
 PAGE, PAGES = Path("docs/performance.md"), {"verdict": Path("docs/strength.md")}  # in the current folder; of other suites
 END, WIDTH = "<!-- bench end -->", 130
-OWN = ("--write", "--force", "--json", "--quiet")  # options that change no figure
+OWN = ("--write", "--force", "--json", "--quiet", "--keep")  # options that change no figure
+FOLDER = "--out"  # nor does this one, which has a value
 
 
 def of(name):
@@ -57,5 +58,12 @@ def _caption():
     from tehl_taichi import __version__
     from tehl_taichi.commit import commit
 
-    command = shlex.join(["tehl", *(word for word in sys.argv[1:] if word not in OWN)])
+    command = shlex.join(["tehl", *_asked(sys.argv[1:])])
     return textwrap.fill(f"`{command}`, version {__version__}, commit {commit()}; {measure.machine()}.", WIDTH)
+
+
+def _asked(words):
+    """The words of a command that change a figure."""
+    after_folder = {at + 1 for at, word in enumerate(words) if word == FOLDER}
+    return [word for at, word in enumerate(words)
+            if word not in (*OWN, FOLDER) and at not in after_folder and not word.startswith(f"{FOLDER}=")]

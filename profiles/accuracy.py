@@ -14,7 +14,7 @@ from tehl_taichi.scene.scales import Scales
 
 TARGETS = (0.05, 0.01, 0.001)
 COLUMNS = {"steady line": (64, 128, 256, 512, 1024), "steady circle": (64, 128, 256),
-           "passage": (64, 128, 256, 512), "thermal passage": (64, 128, 256)}
+           "passage": (64, 128, 256, 512), "thermal passage": (64, 128, 256, 512)}
 QUICK = {"steady line": (64, 128, 256), "steady circle": (32, 64, 128), "passage": (32, 64, 128)}
 QUANTITIES = ("h_c_m", "h_min_m", "p_max_Pa", "film_max_C", "Fi_max")
 # of a thermal passage on one grid, against REFERENCE. Not in it: the time step. Steps of whole cells carry the film nearly from
@@ -188,6 +188,6 @@ def grid_errors(rows):
     for family in dict.fromkeys(row["family"] for row in rows if "setting" not in row):
         own = [row for row in rows if row["family"] == family and row["quantity"] != "film_max_C"]
         columns = dict.fromkeys(row["columns"] for row in own)
-        errors = {nx: max(row["error"] for row in own if row["columns"] == nx) for nx in columns}
+        errors = {nx: float(f'{max(row["error"] for row in own if row["columns"] == nx):.2g}') for nx in columns}
         out[family] = {"columns_per_width": columns_per_width(scene_of(family, 256)), "errors": errors}
     return out

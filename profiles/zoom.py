@@ -15,17 +15,21 @@ SLIPS = {"SRR -0.12": -0.12, "SRR 0": 0.0, "SRR +0.12": 0.12}
 FEATURES = {"asperity": 1.5e-6, "dent": -1.5e-6}
 # {number: (where it is in a summary, unit, that in SI)}
 NUMBERS = {"p_max": (("transient", "p_max_Pa"), "GPa", 1e9), "h_min": (("transient", "h_min_m"), "um", 1e-6),
-           "Fi surface": (("fatigue", "Fi_max"), "", 1.0), "Fi below": (("fatigue", "below", "Fi_max"), "", 1.0)}
+           "film_max": (("transient", "film_max_C"), "degC", 1.0),
+           **{f"Fi {name}": (("fatigue", *place, "Fi_max"), "", 1.0) for name, place in (
+               ("surface", ()), ("below", ("below",)), ("averaged, surface", ("averaged",)),
+               ("averaged, below", ("averaged", "below")))}}
 
 
 @dataclass(frozen=True)
 class ZoomRow:
-    """number of a case: of the coarse run, with its window (and the error bar of that), of the fine run; run times, s."""
+    """number of a case: of the coarse run (None: it has none), with its window (and the error bar of that), of the fine run;
+    run times, s."""
 
     case: str
     number: str
     unit: str
-    coarse: float
+    coarse: float | None
     zoom: float
     error: float | None
     fine: float
@@ -45,12 +49,14 @@ class ZoomRow:
 
 
 def cases(quick=False):
-    """{name: isothermal scene}; quick: one line contact."""
+    """{name: scene}; quick: one line contact without temperatures."""
     nx, ny = QUICK_GRID if quick else GRID
-    base = scene("gear").replace(**{"thermal.on": False, "grid.nx": nx, "grid.ny": ny})
+    warm = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny})
+    base = warm.replace(**{"thermal.on": False})
     if quick:
         return {"line, SRR 0": base.replace(srr=0.0, **{"feature.length": np.inf})}
-    return {f"{kind}, {slip}": base.replace(srr=srr, height=height) for kind, height in FEATURES.items()
+    return {f"{kind}, {slip}{heat}": one.replace(srr=srr, height=height)
+            for heat, one in (("", base), (", temperatures", warm)) for kind, height in FEATURES.items()
             for slip, srr in SLIPS.items()}
 
 
@@ -64,7 +70,8 @@ def run(folder, quick=False, threads=None, progress=None):
         found = [_finished(one, Path(folder) / f"{_file(name)}-{kind}.zarr", threads) for kind, one in (
             ("coarse", description), (f"zoom{factor}", description.replace(**{"zoom.factor": factor})),
             ("fine", description.replace(**{"grid.nx": g.nx * factor, "grid.ny": g.ny * factor})))]
-        rows += [_row(name, number, *found) for number in NUMBERS]
+        rows += [_row(name, number, *found) for number in NUMBERS
+                 if all(_value(summary, NUMBERS[number][0]) is not None for summary, _ in found[1:])]
         yield rows
 
 
@@ -81,15 +88,20 @@ def _finished(description, path, threads):
 
 def _row(case, number, coarse, zoomed, fine):
     place, unit, si = NUMBERS[number]
-    values = [_value(summary, place) / si for summary, _ in (coarse, zoomed, fine)]
+    values = [_in(si, _value(summary, place)) for summary, _ in (coarse, zoomed, fine)]
     error = _value(zoomed[0], (*place[:-1], "error", place[-1]))
-    return ZoomRow(case, number, unit, *values[:2], None if error is None else error / si, values[2],
+    return ZoomRow(case, number, unit, *values[:2], _in(si, error), values[2],
                    *(seconds for _, seconds in (coarse, zoomed, fine)))
 
 
+def _in(unit, value):
+    return None if value is None else value / unit
+
+
 def _value(summary, place):
+    """The number at a place of a summary; None where the run has none."""
     for key in place:
-        summary = summary[key]
+        summary = (summary or {}).get(key)
     return summary
 
 
@@ -101,7 +113,8 @@ def cells(row):
     unit = f" {row.unit}" if row.unit else ""
     bar = "" if row.error is None else f" ± {row.error:.2g}"
     holds = {None: "no bar", True: "yes", False: "no"}[row.holds]
-    return [row.case, row.number, f"{row.coarse:.4g}{unit}", f"{row.zoom:.4g}{bar}{unit}", f"{row.fine:.4g}{unit}",
+    coarse = "–" if row.coarse is None else f"{row.coarse:.4g}{unit}"
+    return [row.case, row.number, coarse, f"{row.zoom:.4g}{bar}{unit}", f"{row.fine:.4g}{unit}",
             f"{100 * row.off:.2f}", holds, f"{row.coarse_s:.0f}, {row.zoom_s:.0f}, {row.fine_s:.0f}"]
 
 
@@ -109,7 +122,7 @@ def chart(plt, rows):
     """Distance from the fine run, of the coarse run and with its window."""
     figure, ax = plt.subplots(figsize=(8, 0.28 * len(rows) + 1.4), constrained_layout=True)
     at = np.arange(len(rows))
-    coarse = [abs(row.coarse / row.fine - 1) for row in rows]
+    coarse = [np.nan if row.coarse is None else abs(row.coarse / row.fine - 1) for row in rows]
     for name, values in (("coarse", coarse), ("with window", [row.off for row in rows])):
         ax.plot(100 * np.maximum(values, 1e-6), at, "o", label=name)
     ax.set(xscale="log", xlabel="distance from the fine run, %", yticks=at,

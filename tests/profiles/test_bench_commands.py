@@ -123,7 +123,7 @@ def test_a_suite_replaces_its_table_in_the_page_and_nothing_else(tmp_path, monke
     assert done.returncode == 0 and "wrote docs/performance.md" in done.stderr, done.stderr
     (head, old, tail), (new_head, new, new_tail) = (parted(text) for text in (before, page.read_text(encoding="utf-8")))
     assert (head, tail) == (new_head, new_tail) and old != new
-    assert new.startswith("\n`tehl bench scaling --quick --threads 2 --out ") and "commit" in new
+    assert new.startswith("\n`tehl bench scaling --quick --threads 2`, version ") and "commit" in new
     titles, _, *lines = (line for line in new.splitlines() if line.startswith("|"))
     assert titles.startswith("| nx | ny | threads | step_ms |")
     assert lines == [f"| 64 | 16 | {threads} | 7.1 | 1.00 | 6450 | 2.0 | 15.5 | 180 |  |" for threads in (1, 2)]
@@ -303,7 +303,8 @@ def test_zoom(tmp_path, monkeypatch):
         name: one.replace(**{"fatigue.surfaces": "a", "time.x_end": 0.2, "numerics.estimate_error": False})
         for name, one in work(quick).items()})
     text, found = done(tmp_path, "zoom", "zoom", "--quick", "--threads", 2)
-    assert [row["number"] for row in found["rows"]] == list(zoom.NUMBERS)
+    at_points = ["p_max", "h_min", "Fi surface", "Fi below"]  # no temperatures; cells longer than the material length
+    assert [row["number"] for row in found["rows"]] == at_points
     for row in found["rows"]:
         line, = lines_with(text, row["case"], row["number"])
         assert any(cell.startswith(f"{row['zoom']:.4g} ± {row['error']:.2g}") for cell in line)
