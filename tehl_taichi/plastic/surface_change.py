@@ -6,7 +6,7 @@ import numpy as np
 
 from tehl_taichi.values.interpolation import lagrange
 
-NODES = range(-1, 3)  # of the interpolation along x, from the node before a place
+NODES = range(-1, 3)  # of the interpolation, from the node before a place
 
 
 @dataclass(frozen=True)
@@ -23,22 +23,22 @@ class SurfaceChange:
 
     def at(self, x, y):
         """Sinking (m) at (y, x) of places x (n,) and y (m,) in its frame."""
-        return self._across(np.abs(y) if self.mirrored else y) @ self._along(x).T
+        along, across = _weights(self.x, x), _weights(self.y, np.abs(y) if self.mirrored else y, self.mirrored)
+        return across @ self.sinking.T @ along.T
 
-    def _along(self, x):
-        """(x, rows): cubic between columns, exact on them."""
-        size, edge = len(self.x), len(NODES)
-        padded = np.pad(self.sinking, ((edge, edge), (0, 0)))
-        place = (np.asarray(x) - self.x[0]) / (self.x[1] - self.x[0])
-        whole = np.floor(place + 1e-6)
-        inside = (whole >= -1) & (whole < size)
-        node = np.where(inside, whole, -2).astype(int) + edge
-        weights = lagrange(NODES, np.where(np.abs(place - whole) < 1e-6, 0.0, place - whole))
-        return sum((w * inside)[:, None] * padded[node + n] for w, n in zip(weights, NODES))
 
-    def _across(self, y):
-        """(y, rows): linear between rows; one row holds everywhere."""
-        if len(self.y) == 1:
-            return np.ones((len(y), 1))
-        place = np.interp(y, self.y, np.arange(len(self.y)), left=-1.0, right=len(self.y))
-        return np.maximum(1 - np.abs(place[:, None] - np.arange(len(self.y))), 0.0)
+def _weights(nodes, to, mirrored=False):
+    """(to, nodes): cubic between nodes, exact on them, 0 beyond the ends; one node holds everywhere. mirrored: before the first
+    node lies the image of what follows it."""
+    to, size = np.asarray(to, float), len(nodes)
+    if size == 1:
+        return np.ones((to.size, 1))
+    place = (to - nodes[0]) / (nodes[1] - nodes[0])
+    whole = np.floor(place + 1e-6).astype(int)
+    part = np.where(np.abs(place - whole) < 1e-6, 0.0, place - whole)
+    out = np.zeros((to.size, size))
+    for weight, n in zip(lagrange(NODES, part), NODES):
+        node = np.abs(whole + n) if mirrored else whole + n
+        inside = np.flatnonzero((node >= 0) & (node < size))
+        out[inside, node[inside]] += weight[inside]
+    return out

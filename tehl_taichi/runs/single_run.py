@@ -216,7 +216,7 @@ def _finish(saved, state, steady, clock, progress):
         coarse_answers = start_coarse(until)
         alone = _fatigue(saved, until, progress)
         found, arrays = (alone.summaries, alone.to_arrays()) if alone else ({}, None)
-        steel, arrays = _of_steel(saved.scene, run_in, found, arrays) if run_in else ({}, arrays)
+        steel = _of_steel(saved.scene, run_in) if run_in else {}
         _add_contact_alone(found, steady["steady_contact_alone"])
         sure = {name: one for name, one in found.items() if not why_none(one)}
         domain = DomainError.from_values(steady["steady_domain"])
@@ -224,6 +224,7 @@ def _finish(saved, state, steady, clock, progress):
         passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain, steel.get("run_in"))
         if saved.scene.zooms and len(saved) > 2:
             passage, found, arrays = _zoom(saved, passage, alone if sure else None, domain, steady, progress)
+        arrays = _with_steel(run_in, found, arrays) if run_in else arrays
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage, **steel}, found), arrays)
     return Run(saved)
 
@@ -268,15 +269,21 @@ def _march(saved, state, progress):
     return run_in_passages.march(saved, state, progress, once)
 
 
-def _of_steel(scene, run_in, found, arrays):
-    """({"run_in": its numbers}, arrays with those of the run-in); found: {surface: summary}, which then say whether steel still
-    yields."""
+def _of_steel(scene, run_in):
+    """{"run_in": its numbers}."""
+    from tehl_taichi.plastic import run_in_numbers
+
+    return {"run_in": run_in_numbers.numbers(scene, run_in)}
+
+
+def _with_steel(run_in, found, arrays):
+    """Arrays with those of the run-in; found: {surface: summary}, which then say whether steel still yields."""
     from tehl_taichi.plastic import run_in_numbers
 
     for name, new in run_in.records[-1]["new_by_surface"].items():
         if part := searched(found.get(name, {})).get("von_mises"):
             part["yields"] = new > 0
-    return {"run_in": run_in_numbers.numbers(scene, run_in)}, {**(arrays or {}), **run_in_numbers.arrays(run_in)}
+    return {**(arrays or {}), **run_in_numbers.arrays(run_in)}
 
 
 def _march_once(saved, progress, state, changes=()):

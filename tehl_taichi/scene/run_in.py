@@ -39,9 +39,6 @@ def check(scene):
     if not flowing(scene):
         raise SceneError(f"time.run_in = {count} needs the yield stress of a body that moves: set bodies.a.yield_stress or "
                          "bodies.b.yield_stress, in Pa (2.2e9 is that of hardened bearing steel)")
-    if scene.zooms:
-        raise SceneError(f"time.run_in = {count} and zoom.factor = {scene.zoom.factor} exclude each other: a zoom window "
-                         "does not have the new surface; set one of them to 0")
     if cut_at(scene) is not None and scene.time.steps:  # 0: the steady start alone, `tehl resume` does the rest
         raise SceneError(f"time.run_in = {count} needs whole passages: omit time.steps and time.x_end")
     for surface in flowing(scene):

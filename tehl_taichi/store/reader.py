@@ -172,6 +172,12 @@ class Reader:
         found = self.run_in
         return found.residual_fields if found else {}
 
+    @property
+    def surface_changes(self):
+        """Each :class:`tehl_taichi.plastic.surface_change.SurfaceChange` that its passage saw."""
+        found = self.run_in
+        return found.changes if found else ()
+
     def map(self, name):
         """One of the maps that :meth:`finish` stored, or None."""
         return self._whole(name) if name in self.metadata else None

@@ -32,3 +32,18 @@ def test_a_lower_asperity_is_a_sunk_one(plain):
 def test_without_a_change_every_bit_stays(plain):
     again = list(march(GEAR, plain[0].state, ()))
     assert all(np.array_equal(one.fields[name], two.fields[name]) for one, two in zip(again, plain[1:]) for name in one.fields)
+
+
+@pytest.mark.parametrize("mirrored", [True, False])
+def test_between_its_places_it_is_smooth_along_and_across(mirrored):
+    """A dent known at every 10 um, 40 um wide: to half a percent of its depth anywhere, exact on its places, nothing beyond."""
+    def dent(x, y):
+        return np.exp(-((x[None] / 4e-5) ** 2) - (y[:, None] / 4e-5) ** 2)
+
+    x, y = np.arange(-12, 13) * 1e-5, np.arange(0 if mirrored else -12, 13) * 1e-5
+    change = SurfaceChange("a", x, y, dent(x, y).T, mirrored)
+    assert np.array_equal(change.at(x, y), dent(x, y))
+    fine = np.linspace(-1.1e-4, 1.1e-4, 89)
+    assert np.abs(change.at(fine, fine) - dent(fine, fine)).max() < 0.005
+    assert np.array_equal(change.at(fine, fine), change.at(fine, fine[::-1])[::-1]) or not mirrored
+    assert not change.at(np.array([-2e-4, 2e-4]), fine).any() and not change.at(fine, np.array([2e-4])).any()

@@ -1,15 +1,19 @@
 """Runs with run-in: what they store and say, a killed one resumed, and that runs without it know nothing of it."""
 
+import shutil
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.errors import SceneError
+from tehl_taichi.fatigue import assessment
+from tehl_taichi.fatigue.assessment import Snapshots
+from tehl_taichi.march.passage import march
 from tehl_taichi.report import verdict
-from tehl_taichi.runs.summary import summary_rows
+from tehl_taichi.runs.summary import result_warnings, summary_rows
 
 STEEL = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "feature.height": 3e-6,
                                       "time.run_in": 2, "bodies.a.yield_stress": 2.2e9, "numerics.estimate_error": False})
@@ -107,6 +111,29 @@ def test_coarse_grid_runs_run_in_by_themselves(tmp_path):
     assert found["error"]["height_after_m"] is None or 0 < found["error"]["height_after_m"] < 0.3e-6
 
 
-def test_it_cannot_be_zoomed():
-    with pytest.raises(SceneError, match="exclude each other"):
-        STEEL.replace(**{"zoom.factor": 2})
+@pytest.mark.slow
+def test_a_window_has_the_surface_and_the_residual_stress_of_its_run(done, tmp_path):
+    """As a passage on a grid twice as fine over the same surface and steel, which differs from the run by ten times as much."""
+    path, state = shutil.copytree(done.path, tmp_path / "zoomed.zarr"), done.store.run_in
+    found = tehl.zoom(path, 2)
+    fine = STEEL.replace(**{"grid.nx": 128, "grid.ny": 32, "time.run_in": 0})
+    reader = Snapshots(march(fine, changes=state.changes), state.residual_fields)
+    p = max(shot.scalars["p_max_Pa"] for shot in reader.items[1:])
+    assert abs(found["p_max"].value - p) < min(1e-3 * p, 0.2 * abs(done["p_max"].value - p))
+    own, there = found.summary["fatigue_by_surface"]["a"], assessment.run(fine, reader, alone=False).summaries["a"]
+    assert own["Fi_max"] == pytest.approx(there["Fi_max"], rel=0.02)
+    assert own["below"]["Fi_max"] == pytest.approx(there["below"]["Fi_max"], rel=0.01)
+    assert found.summary["run_in"]["history"] == done.summary["run_in"]["history"] and found.store.map("sinking_a").max() > 2e-7
+    removed = tehl.zoom(path, 0)
+    assert removed.summary["fatigue"] == done.summary["fatigue"] and removed.store.map("zoom_pressure") is None
+
+
+def test_a_window_with_more_pressure_than_steel_flowed_under_is_a_warning():
+    zoom = {"p_max_Pa": 5.5e9, "base": {"p_max_Pa": 5e9}}
+    run_in = {"new_plastic_strain": 0.0, "plastic_strain_max": 1e-3, "unsettled_m": 0.0, "contained": True}
+    store = SimpleNamespace(scene=STEEL)
+    said, = result_warnings.running_in(store, {"run_in": run_in, "zoom": zoom})
+    assert "under the pressures of the run, up to 5.00 GPa, while the zoom window has 5.50 GPa" in said
+    for less in ({"p_max_Pa": 5.1e9, "base": {"p_max_Pa": 5e9}}, {"p_max_Pa": 4.5e9, "base": {"p_max_Pa": 4e9}}):
+        assert not list(result_warnings.running_in(store, {"run_in": run_in, "zoom": less}))
+    assert not list(result_warnings.running_in(store, {"run_in": run_in}))

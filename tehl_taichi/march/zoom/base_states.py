@@ -7,7 +7,7 @@ import numpy as np
 
 from tehl_taichi.heat.chebyshev import ChebyshevNodes
 from tehl_taichi.laws.density import rho_film, rho_ratio
-from tehl_taichi.march.feature_gap import smooth_with, with_features
+from tehl_taichi.march.feature_gap import sink, smooth_with, with_features
 from tehl_taichi.march.zoom.marched_heat import MarchedHeat
 from tehl_taichi.pressure.grids import Grids
 from tehl_taichi.scene.scales import Scales
@@ -37,15 +37,17 @@ class BaseState:
 
 
 class BaseStates:
-    """States of the run of a scene that `reader` holds (every step, the steady start first)."""
+    """States of the run of a scene that `reader` holds (every step, the steady start first); its `surface_changes`, where it
+    has any: what run-in left of the surfaces."""
 
     def __init__(self, scene, reader):
         self.scene, self.reader, self.scales = scene, reader, Scales.of(scene)
+        self.changes = getattr(reader, "surface_changes", ())
         self.grid = Grids(scene.grid, self.scales, scene.grid.nx, scene.rows, not scene.symmetric)
         self.smooth = self.grid.smooth_gap()
         self.mirrored = self.grid.ny > 0 and scene.symmetric
         self.last, self.first_x, self.way = len(reader) - 1, scene.path[0], step_length(scene)
-        self.heat = None if scene.isothermal else MarchedHeat(scene)
+        self.heat = None if scene.isothermal else MarchedHeat(scene, self.changes)
         self.entry = functools.lru_cache(maxsize=2 * POINTS)(self._entry)
 
     def position(self, step):
@@ -66,11 +68,17 @@ class BaseStates:
         s, found = self.scales, self.reader.fields(n, ("pressure", "film"))
         p, film = (np.asarray(found[name], float).T for name in ("pressure", "film"))
         H, H0 = film / s.h, float(self.reader.scalar("h0_m")[n]) / s.h
-        gap = with_features(self.smooth, self.grid, self.scene.surfaces, self.position(n))
+        gap = self.gap(self.smooth, self.grid, self.position(n))
         if n == 0:  # the start is smooth; features come into its film with the first step
             H = H + gap - smooth_with(self.grid, self.scene.standing)
         T = self.heat.at(n).T if self.heat else self.scene.operation.temperature
         return BaseState(self.position(n), p / s.p_H, self._density(p, T) * H, H - gap - H0, H0, T)
+
+    def gap(self, smooth, levels, X):
+        """The undeformed gap `smooth` of some levels with features in it, and what run-in left of them; X: of the first, a."""
+        gap = with_features(smooth, levels, self.scene.surfaces, X)
+        sink(gap, levels, self.scene.surfaces, self.changes, X)
+        return gap
 
     def _density(self, p, T):
         """Mean over the film."""

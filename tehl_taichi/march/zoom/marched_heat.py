@@ -19,10 +19,10 @@ class HeatState:
 
 
 class MarchedHeat:
-    """The HeatState of a step of the run of `scene`, in rising order."""
+    """The HeatState of a step of the run of `scene`, in rising order; changes: of its surfaces by run-in."""
 
-    def __init__(self, scene):
-        self.shots, self.states, self.newest = march(scene), {}, -1
+    def __init__(self, scene, changes=()):
+        self.shots, self.states, self.newest = march(scene, changes=changes), {}, -1
 
     def at(self, step):
         """The HeatState of a step, of the newest ones. Raises NotConverged where the run does."""

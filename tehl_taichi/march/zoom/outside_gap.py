@@ -6,7 +6,6 @@ the nodes of the window, that by the pressure along its border, which the window
 
 import numpy as np
 
-from tehl_taichi.march.feature_gap import with_features
 from tehl_taichi.pressure import fields, influence
 from tehl_taichi.values.refining import Refining
 
@@ -43,10 +42,11 @@ class OutsideGap:
         return out[P.shape[0] - 1 :] if self.mirrored else out
 
     def put(self, state, origin, ring):
-        """GAP0 of the window: undeformed gap, features, deflection from outside; ring: the pressure of the run at its nodes."""
+        """GAP0 of the window: undeformed gap, features after run-in, deflection from outside; ring: the pressure of the run at
+        its nodes."""
         v = self.levels
         v.place(origin)
-        gap = with_features(v.smooth_gap(), v, v.scene.surfaces, state.X)
+        gap = self.base.gap(v.smooth_gap(), v, state.X)
         v.put(fields.GAP0, gap + self._far(state, origin) - self._own(ring, origin))
 
     def _far(self, state, origin):

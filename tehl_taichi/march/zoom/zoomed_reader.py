@@ -15,6 +15,7 @@ class ZoomedReader:
     def __init__(self, reader, zoomed, mirrored):
         self.base, self.zoomed, w, self.searched = reader, zoomed, zoomed.window, {}
         self.averaged, self.kept_heat = 0.0, {}
+        self.residual_fields = getattr(reader, "residual_fields", {})
         self.window = Extent(w.factor, w.nx + 1, w.ny + 1, w.row)
         self.time, self.feature_x = reader.time, reader.feature_x
         self.x, self.y = (_between(side, w.factor) for side in (reader.x, reader.y))

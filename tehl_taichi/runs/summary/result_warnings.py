@@ -15,6 +15,7 @@ from tehl_taichi.values.coded_warning import coded_warning, once, with_data
 from tehl_taichi.values.digits import micrometres
 
 STILL = 0.01  # of the largest plastic strain: a passage that adds less has run in
+ABOVE = 0.03  # of the largest pressure of a run: a window with so much more would make more steel flow
 MANY, FIRST = 6, 4  # numbers without an error bar: so many are all named, of more the first
 CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
 
@@ -157,6 +158,17 @@ def running_in(store, summary):
     if not found["contained"]:
         yield with_data("plastic flow of the run-in reaches the rim of the region around the features, or a depth of 1 a; "
                         "surface and residual stress are wrong there")
+    yield from _beyond_run_in(store.scene, summary.get("zoom"))
+
+
+def _beyond_run_in(scene, zoom):
+    """A window with a higher pressure than that under which the steel flowed."""
+    p, now = (zoom["base"]["p_max_Pa"], zoom["p_max_Pa"]) if zoom else (0.0, 0.0)
+    if now <= max((1 + ABOVE) * p, yield_stress.pressure(scene)):
+        return
+    text = (f"steel flowed under the pressures of the run, up to {p / 1e9:.2f} GPa, while the zoom window has "
+            f"{now / 1e9:.2f} GPa: on a finer grid more would flow")
+    yield with_data(text, p_max_Pa=p, zoom_p_max_Pa=now)
 
 
 def place(found, um="um"):

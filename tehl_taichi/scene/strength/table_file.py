@@ -15,6 +15,7 @@ from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.quantity import Number
 
 MOST, LARGEST = 500, 1e6  # rows, bytes
+MARKS = (";", "\t", ",")  # what may stand between two columns, the first that the line of names has; else a single column
 STRESS = {"Pa": 1.0, "MPa": 1e6}
 # {quantity of a column: (its name in SI units, {unit: factor}, declaration in SI units)}
 KNOWN = {"depth": (DEPTH, {"m": 1.0, "mm": 1e-3, "um": 1e-6}, Number("", "m", 0.0, 0.03, usual=5e-4)),
@@ -64,7 +65,8 @@ def _rows(where, content):
     """Lists of words, without empty lines and those that begin with #. Raises SceneError."""
     lines = [line for line in content.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     try:
-        rows = [[cell.strip() for cell in row] for row in csv.reader(io.StringIO("\n".join(lines)))]
+        mark = next((mark for mark in MARKS if lines and mark in lines[0]), ",")
+        rows = [[_cell(cell, mark) for cell in row] for row in csv.reader(io.StringIO("\n".join(lines)), delimiter=mark)]
     except csv.Error as error:
         raise SceneError(f"{where} cannot be read: {error}") from None
     if not 2 <= len(rows) <= MOST + 1:
@@ -72,15 +74,23 @@ def _rows(where, content):
     return rows
 
 
+def _cell(cell, mark):
+    """Text of a cell; a comma is a decimal point where another mark parts the columns."""
+    return cell.strip() if mark == "," else cell.strip().replace(",", ".")
+
+
 def _columns(where, rows):
     """{name in SI units: numbers} of rows of words, the names first. Raises SceneError."""
     names, *lines = rows
+    while names and not names[-1]:  # spreadsheets end lines with marks
+        names.pop()
     _check_names(where, names)
+    _check_lengths(where, len(names), lines)
     out = {}
     for n, name in enumerate(names):
         what, unit = NAMES[name]
         key, units, declared = KNOWN[what]
-        out[key] = [_number(f"{where}, row {at}: {name}", row, n, units[unit], declared) for at, row in enumerate(lines, 1)]
+        out[key] = [_number(f"{where}, row {at}: {what}", row, n, units[unit], declared) for at, row in enumerate(lines, 1)]
     _check_depths(where, out[DEPTH])
     return {DEPTH: out.pop(DEPTH), **out}
 
@@ -94,6 +104,13 @@ def _check_names(where, names):
         raise SceneError(f"{where} has two columns of {twice[0]}; remove one of them")
     if "depth" not in known or ("hardness" in known) == ("limit" in known):
         raise SceneError(f"{where} has the columns {', '.join(names)}; needed: {NEEDED}, not both of these")
+
+
+def _check_lengths(where, count, lines):
+    for at, row in enumerate(lines, 1):
+        if any(row[count:]):
+            raise SceneError(f"{where}, row {at} has {len(row)} columns; allowed: {count}, as in the line of names (a decimal "
+                             "comma needs a semicolon between columns)")
 
 
 def _number(where, row, n, factor, declared):

@@ -8,12 +8,14 @@ import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue.assessment import Snapshots
+from tehl_taichi.march.passage import march
 from tehl_taichi.march.zoom import window_passage
 from tehl_taichi.march.zoom.base_states import BaseStates
 from tehl_taichi.march.zoom.window import Window
 from tehl_taichi.march.zoom.window_passage import WindowPassage
 from tehl_taichi.march.zoom.zoomed_passage import passages
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
+from tehl_taichi.plastic.surface_change import SurfaceChange
 from tehl_taichi.pressure import fields
 from tehl_taichi.scene.scales import Scales
 
@@ -100,6 +102,35 @@ def test_a_window_may_begin_late_and_end_early(runs):
         False, *[True] * len(late.entries), False] or len(late.entries) == 9
     at = whole.entries.index(late.entries[-1])
     assert np.abs(late.fields["pressure"][-1] - whole.fields["pressure"][at]).max() < 0.03 * 1.93e9
+
+
+@pytest.fixture(scope="module")
+def sunk():
+    """Runs on 128 and 256 columns with surfaces that run-in sank on 128: that of the asperity by a fifth, the other by less."""
+    frame, found = np.linspace(-1.5e-4, 1.5e-4, 56), []
+    changes = [SurfaceChange(name, frame, np.zeros(1), depth * np.exp(-((frame / 4e-5) ** 2))[:, None], False)
+               for name, depth in (("a", 0.3e-6), ("b", 0.1e-6))]
+    for columns in (128, 256):
+        scene = LINE.replace(**PART, **{"thermal.on": False, "operation.srr": -0.12, "grid.nx": columns})
+        reader = InMemory(march(scene, changes=changes))
+        reader.surface_changes = changes
+        found.append((scene, reader))
+    return found
+
+
+def test_a_window_has_the_surfaces_after_run_in(runs, sunk):
+    (scene, reader), (_, fine) = sunk
+    one, zoomed = passage(scene, reader, 1), ZoomedReader(reader, passage(scene, reader, 2), True)
+    for entry, origin, p in zip(one.entries, one.origins, one.fields["pressure"]):
+        own = reader.items[entry].fields["pressure"][origin : origin + one.window.nx + 1]
+        assert np.abs(p - own).max() < 1e-4 * 1.93e9
+    now, there, before = (each.scalar("p_max_Pa")[1:].max() for each in (zoomed, fine, reader))
+    assert abs(now - there) < 0.003 * there and abs(now - there) < 0.4 * abs(before - there) + 1e-4 * there
+    assert runs(-0.12)[1].scalar("p_max_Pa")[1:].max() > 1.05 * there
+    entry = int(np.argmax(zoomed.scalar("p_max_Pa")))
+    p, shot = zoomed.fields(entry, ("pressure",))["pressure"], fine.items[2 * entry]
+    near = np.abs(shot.x - shot.feature_x) < 0.2 * Scales.of(scene).a
+    assert np.abs(p - shot.fields["pressure"])[near].max() < 0.005 * there
 
 
 def failing(monkeypatch, fails):

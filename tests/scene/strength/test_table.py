@@ -103,13 +103,15 @@ def test_another_table_or_none_replaces_the_numbers(case):
 REFUSED = {
     "depth,hardness_HV\n0,700": r"a column 'depth' \(did you mean 'depth_\w+'\?\); known: depth_m, depth_mm, depth_um",
     "depth_mm,hardness\n0,700": "did you mean 'hardness_HV'",
-    "depth_mm,hardness_HV\n0,700\n0.2,nan": "row 2: hardness_HV = nan",
-    "depth_mm,hardness_HV\n0,700\n0.2,hard": "row 2: hardness_HV = 'hard' is not a number; allowed: 50 to 1200 HV",
-    "depth_mm,hardness_HV\n0,700\n0.2": "row 2: hardness_HV = '' is not a number",
+    "depth_mm,hardness_HV\n0,700\n0.2,nan": "row 2: hardness = nan",
+    "depth_mm,hardness_HV\n0,700\n0.2,hard": "row 2: hardness = 'hard' is not a number; allowed: 50 to 1200 HV",
+    "depth_mm,hardness_HV\n0,700\n0.2": "row 2: hardness = '' is not a number",
     "depth_mm,hardness_HV\n0,700\n0.2,650\n0.2,600": "row 3: the depth 200 um does not exceed the one before",
-    "depth_mm,hardness_HV\n0,700\n800,400": "row 2: depth_mm = 0.8 m is out of range; allowed: at least 0 m and at most 0.03 m",
+    "depth_mm,hardness_HV\n0,700\n800,400": "row 2: depth = 0.8 m is out of range; allowed: at least 0 m and at most 0.03 m",
     "depth_mm,hardness_HV\n0,60": "",
-    "depth_mm,hardness_HV\n0,7000": "row 1: hardness_HV = 7000 HV is out of range",
+    "depth_mm,hardness_HV\n0,7000": "row 1: hardness = 7000 HV is out of range",
+    "depth_mm,hardness_HV\n0,700\n0,8,550": "row 2 has 3 columns; allowed: 2, as in the line of names",
+    "depth_mm;hardness_HV\n0;700\n0.000,8;550": "row 2: depth = '0.000.8' is not a number",
     "depth_mm,limit_Pa\n0,400": "did you mean 400e6 Pa",
     "depth_mm,kappa\n0,0.3": "needed: depth_mm .* and either hardness_HV or limit_MPa",
     "depth_mm,limit_MPa,hardness_HV\n0,400,700": "not both of these",
@@ -140,6 +142,17 @@ def test_a_table_without_sense_is_refused_in_a_sentence(tmp_path, content):
 def test_what_is_no_table_is_refused(changes, said):
     with pytest.raises(SceneError, match=said):
         GEAR.replace(**changes)
+
+
+@pytest.mark.parametrize("content", [
+    "\ufeffdepth_mm;hardness_HV;residual_xx_MPa\n0;700;-400\n0,8;550;-12,5\n",
+    "depth_mm\thardness_HV\tresidual_xx_MPa\r\n0\t700\t-400\r\n0.8\t550\t-12.5\r\n",
+    "# a comment, first\ndepth_mm, hardness_HV, residual_xx_Pa,\n0,700,-4e8,\n0.8,550,-1.25e7,\n"])
+def test_spreadsheets_of_other_countries_give_the_same_table(tmp_path, content):
+    path, same = tmp_path / "a.csv", tmp_path / "b.csv"
+    path.write_text(content)
+    same.write_text("depth_mm,hardness_HV,residual_xx_MPa\n0,700,-400\n0.8,550,-12.5\n")
+    assert GEAR.replace(**{"fatigue.table": str(path)}) == GEAR.replace(**{"fatigue.table": str(same)})
 
 
 def test_binary_files_and_large_ones_are_refused(tmp_path):
