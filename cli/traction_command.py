@@ -4,14 +4,13 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-from tehl_cli.amount import number
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import DRAWS, say_idle
 from tehl_cli.live_display import say
 from tehl_cli.scene_options import check_rows, given_by
 from tehl_cli.stdout import print_json, put
 
-LIST = "values a,b,c or low:high:N or low:high:N:log"
+LIST = "values a,b,c or low:high:N or low:high:N:log, with units as in 0:50%:11"
 
 
 def register(app):
@@ -26,8 +25,8 @@ def traction(
     temperature: Optional[str] = typer.Option(None, help=f"inlet temperatures, deg C, {LIST} (default: that of the scene)"),
     speed: Optional[str] = typer.Option(None, help=f"mean speeds, m/s, {LIST}; with one --srr a Stribeck curve"),
     oil: Optional[str] = typer.Option(None, help="name of the oil (`tehl oils`)"),
-    load: Optional[float] = number("load, N (line: N/m)"),
-    hertz_pressure: Optional[float] = number("Hertz pressure instead of a load, Pa"),
+    load: Optional[str] = typer.Option(None, help=f"loads, N (line: N/m), {LIST}"),
+    hertz_pressure: Optional[str] = typer.Option(None, help=f"Hertz pressures instead of loads, Pa, {LIST}"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with (default) or without energy equation"),
     set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value in all cases, repeatable"),
     grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (NX alone if nothing varies along y)"),
@@ -42,8 +41,8 @@ def traction(
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
 ):
-    """Compute traction curves of a steady contact: friction, film and temperature over slip, for several inlet temperatures or
-    speeds. Repeat the command to resume.
+    """Compute traction curves of a steady contact: friction, film and temperature over slip, for several inlet temperatures,
+    loads or speeds. Repeat the command to resume.
 
     Examples: `tehl traction smooth-line --srr 0:0.5:11 --temperature 40,80,120` · `tehl traction mtm --srr 0.1 --speed
     0.1:10:9:log --oil mineral-vg220`
@@ -57,14 +56,15 @@ def traction(
 
     page = FigureStyle(format, dpi, figure_width, force=True)
     drawing() if figure else say_idle(context, "--no-figure draws none", *DRAWS)
-    options = {"oil.name": oil, "load": load, "hertz_pressure": hertz_pressure, "thermal.on": thermal}
+    options = {"oil.name": oil, "thermal.on": thermal}
     changes = given_by(options, grid, set_ or [])
     base = find(scene)
     check_rows(grid, changes, lambda: base)
     with SweepLive(quiet) as live:
         try:
-            found = room.traction(base, srr, temperature, speed, changes=changes, path=out, workers=workers,
-                                  threads_per_worker=threads_per_worker, progress=live)
+            found = room.traction(base, srr, temperature, speed, load=load, hertz_pressure=hertz_pressure,
+                                  changes=changes, path=out, workers=workers, threads_per_worker=threads_per_worker,
+                                  progress=live)
         except KeyboardInterrupt as stop:
             raise Interrupted(f"{stopped(stop)} {live.left()}") from None
     if figure:
@@ -81,16 +81,19 @@ def print_traction(found):
 
     rows = found.rows
     columns = [column for column in COLUMNS if any(row[column[0]] is not None for row in rows)]
-    list_table(f"{found.study.plan.scene.name}: traction", ("deg C", "u_m m/s", "SRR", *(head for _, head, _ in columns)),
-               [[f"{row['temperature_C']:g}", f"{row['u_m_m_s']:g}", f"{row['srr']:g}",
-                 *(_shown(row, key, factor) for key, _, factor in columns)] for row in rows], whole=True)
+    keys = {key: head for key, head in KEYS.items() if key in rows[0]}
+    list_table(f"{found.study.plan.scene.name}: traction", (*keys.values(), *(head for _, head, _ in columns)),
+               [[*(f"{row[key]:g}" for key in keys), *(_shown(row, key, factor) for key, _, factor in columns)]
+                for row in rows], whole=True)
     for row in found.failed:
-        put(f"no result: SRR {row['srr']:g}, {row['u_m_m_s']:g} m/s, {row['temperature_C']:g} deg C: {row['reason']}")
+        put(f"no result: {', '.join(f'{head} {row[key]:g}' for key, head in KEYS.items() if key in row)}: {row['reason']}")
     warning_lines(found.warnings)
     put(f"table: {found.study.table}; study: {found.study.path}")
 
 
 ROUNDING = 1e-12  # of a friction coefficient in pure rolling
+KEYS = {"temperature_C": "deg C", "load_N": "load N", "load_N_m": "load N/m", "p_Hertz_Pa": "p_Hertz Pa", "u_m_m_s": "u_m m/s",
+        "srr": "SRR"}
 COLUMNS = (("friction_coefficient", "friction", 1), ("h_c_m", "h_c um", 1e6), ("h_min_m", "h_min um", 1e6),
            ("film_max_C", "film deg C", 1))
 

@@ -699,9 +699,10 @@ def cam(table: Name, *, feature: "Feature | None" = None, scene: "Scene | None" 
 
 
 def traction(scene: "Scene | Name", srr: Any = "0:0.5:11", temperature: Any = None, speed: Any = None, *,
-             changes: dict | None = None, path: Name | None = None, workers: int | None = None,
-             threads_per_worker: int | None = None, progress: "Callable | None" = None) -> "Traction":
-    """Compute traction curves of a steady contact: friction, film and temperature over slip, speed and inlet temperature.
+             load: Any = None, hertz_pressure: Any = None, changes: dict | None = None, path: Name | None = None,
+             workers: int | None = None, threads_per_worker: int | None = None,
+             progress: "Callable | None" = None) -> "Traction":
+    """Compute traction curves of a steady contact: friction, film and temperature over slip, speed, load and inlet temperature.
 
     Workers import the calling script: put its calls below `if __name__ == "__main__":`.
 
@@ -711,7 +712,9 @@ def traction(scene: "Scene | Name", srr: Any = "0:0.5:11", temperature: Any = No
         A Scene, or a name that :func:`tehl_taichi.scene` loads; its features are left out.
     srr, temperature, speed : list or str, optional
         Slide-roll ratios, inlet temperatures in deg C and mean speeds in m/s: lists, or text as "low:high:N",
-        "low:high:N:log" or "a,b,c"; default of temperature and speed: that of the scene.
+        "low:high:N:log" or "a,b,c", with units as in "0:50%:11"; default of temperature and speed: that of the scene.
+    load, hertz_pressure : float, list or str, optional
+        Loads in N (line contact: N/m), or Hertz pressures in Pa, likewise.
     changes : dict, optional
         Changes of the scene, as for :meth:`Scene.replace`. Temperatures are computed in all cases unless "thermal.on" says
         otherwise.
@@ -741,8 +744,8 @@ def traction(scene: "Scene | Name", srr: Any = "0:0.5:11", temperature: Any = No
     _use_plugins(scene)
     from tehl_taichi.runs.traction.traction_run import traction
 
-    return traction(scene, srr, temperature, speed, changes=changes, path=path, workers=workers,
-                    threads_per_worker=threads_per_worker, progress=progress)
+    return traction(scene, srr, temperature, speed, load=load, hertz_pressure=hertz_pressure, changes=changes, path=path,
+                    workers=workers, threads_per_worker=threads_per_worker, progress=progress)
 
 
 def compare(*paths: "Name | Run | Study | ContactSet") -> "Comparison | PlaceComparison":

@@ -31,6 +31,7 @@ TEMPERATURES = {"deg C": lambda value: value, "C": lambda value: value, "K": lam
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 NAME = r"(?:(?<=\s)1/)?[^\d\s.,:;][^,:;]*?"
 WITH_UNIT = re.compile(rf"\s*({NUMBER})\s*({NAME})(?:\s+at\s+({NUMBER})\s*({NAME}))?\s*")
+BARE = re.compile(rf"\s*{NUMBER}\s*")
 SPELLED = {"\u00b5": "u", "\u03bc": "u", "\u00b2": "2", "\u00b3": "3", "\u00b0": "deg", "^": "", "*": "", "\u00b7": "", "(": "",
            ")": "", " ": ""}
 
@@ -57,6 +58,41 @@ def in_unit(where, value, unit):
     if radius is not None:
         raise _refused(where, value, f"at {radius} {of_radius}", unit)
     return _converted(where, value, digits, name, unit)
+
+
+def split(text):
+    """(number, unit) of "3.8 mm" or "3.8", as text; the unit of a speed by turns is "rpm at 40 mm". None for other text.
+
+    >>> split("1500rpm at 40 mm"), split("3.8"), split("limiting")
+    (('1500', 'rpm at 40 mm'), ('3.8', ''), None)
+    """
+    if BARE.fullmatch(text):
+        return text.strip(), ""
+    match = WITH_UNIT.fullmatch(text)
+    if not match:
+        return None
+    digits, name, radius, of_radius = match.groups()
+    return digits, name if radius is None else f"{name} at {radius} {of_radius}"
+
+
+def in_same_unit(text, low, high):
+    """(low, high, unit) as numbers in the unit of `high`, for two (number, unit) of :func:`split`; text: what the user typed.
+    A low end without a unit has that of the high one. Raises SceneError.
+
+    >>> in_same_unit("500N:2kN", ("500", "N"), ("2", "kN"))
+    (0.5, 2.0, 'kN')
+    """
+    if low[1] and not high[1]:
+        raise SceneError(f"{text}: {high[0]} has no unit; write {high[0]} {low[1]}, or both in SI units without a unit")
+    if low[1] in ("", high[1]):
+        return float(low[0]), float(high[0]), high[1]
+    kinds = [table for table in UNITS.values() if all(_named(unit, table) is not None for _, unit in (low, high))]
+    if kinds:
+        return float(low[0]) * _named(low[1], kinds[0]) / _named(high[1], kinds[0]), float(high[0]), high[1]
+    if any(_named(unit, TEMPERATURES) is None for _, unit in (low, high)):
+        raise SceneError(f"{text}: {shown(low[1])} and {shown(high[1])} are not units of the same quantity")
+    first, second = (_clean(_named(unit, TEMPERATURES)(float(digits))) for digits, unit in (low, high))
+    return first, second, "deg C"
 
 
 def _converted(where, value, digits, name, unit):

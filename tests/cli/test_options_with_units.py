@@ -41,6 +41,18 @@ def test_a_dent_with_units():
     assert dent_of("10um,0.3mm,rim=1.2um") == dent_of("10e-6,0.3e-3,rim=1.2e-6")
 
 
+def test_ranges_with_units(tmp_path, monkeypatch):
+    """Of `--over`, of samples, and of traction curves: the study of SI values, by its name."""
+    monkeypatch.chdir(tmp_path)
+    over = [typed(["sweep", "mtm", "--dry-run", "--thermal", *rest]).stdout for rest in
+            (["--over", "srr=1:50%:3"], ["--over", "srr=0.01:0.5:3"], ["--samples", "4", "--over", "load=0.01:0.05kN"],
+             ["--samples", "4", "--over", "load=10:50"])]
+    assert over[0] == over[1] != "" and over[2] == over[3] != ""
+    curves = "traction mtm --isothermal --grid 64x16 --workers 1 --quiet --no-figure --json --srr".split()
+    refused = [refusal([*curves, *rest]) for rest in (["0:300%:3"], ["0:0.5m:3"], ["0.1", "--load", "5N,1kN,2"])]
+    assert "operation.srr = 3 is out of range" in refused[0] and "'m' is no unit" in refused[1] and "2 has no unit" in refused[2]
+
+
 @pytest.mark.parametrize("command, parts", [
     ("run gear --dry-run --load 5kN", ("contact.load", "'kN'", "N/mm")),
     ("run gear --dry-run --speed 1500rpm", ("operation.u_m", "radius")),

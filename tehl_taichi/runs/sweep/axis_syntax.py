@@ -10,11 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.values import units
 from tehl_taichi.values.coerce import plain, shown
 
-FORMS = "as in srr=-0.3:0.3:7, srr=-0.1,0,0.1 or speed=0.1:10:5:log"
-NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
-RANGE = re.compile(rf"\s*({NUMBER}):({NUMBER})(?::(\d+))?(:log)?\s*")
+FORMS = "as in srr=-0.3:0.3:7, srr=-0.1,0,0.1, load=1kN:5kN:3 or speed=0.1:10:5:log"
+END = rf"{units.NUMBER}[^:,\"'\[\]{{}}]*"  # of a range, with or without a unit
+RANGE = re.compile(rf"\s*({END}):({END})(?::(\d+))?(:log)?\s*((?:{units.NAME})?)\s*")
 NEXT_KEY = re.compile(r"\s+(?=[A-Za-z_][\w.]*\s*=)")
 MOST = 100_000  # values of a range
 DIGITS = 12  # of the values of a range: 0.1 * 3 is 0.3 there
@@ -34,11 +35,19 @@ class Axis:
 
 @dataclass(frozen=True)
 class Span:
-    """Everything from low to high, for samples; log: evenly in the logarithm."""
+    """Everything from low to high, for samples; log: evenly in the logarithm; unit: that the user wrote, "" for SI."""
 
     low: float
     high: float
     log: bool = False
+    unit: str = ""
+
+    def converted(self, convert):
+        """The span in SI; convert: function of a list of texts with units."""
+        if not self.unit:
+            return self
+        low, high = convert([_with_unit(end, self.unit) for end in (self.low, self.high)])
+        return Span(low, high, self.log)
 
     def at(self, share):
         """Value at a share 0..1 of it."""
@@ -84,10 +93,31 @@ def axis(keys, columns):
 
 
 def parsed(text):
-    """List of values, or Span, of 'a,b,c', 'a:b:n', 'a:b:n:log' or 'a:b'. Raises SceneError."""
-    if (match := RANGE.fullmatch(text)):
-        return _range(text.strip(), *match.groups())
-    return [value for item in _items(text) for value in _listed(item)]
+    """List of values, or Span, of 'a,b,c', 'a:b:n', 'a:b:n:log' or 'a:b'; numbers may have units, one behind the last number
+    holds for all. Raises SceneError."""
+    if (found := _range(text)) is not None:
+        return found
+    items = _items(text)
+    unit = _unit_of_all(text, items)
+    return [value for item in items for value in _listed(item, unit)]
+
+
+def _unit_of_all(text, items):
+    """Unit that the last of several numbers has and the others lack; "" where each has its own, or none. Raises SceneError
+    where only some have one."""
+    found = [units.split(item) for item in items]
+    own = [one[1] for one in found if one]
+    if len(own) < len(items) or not any(own) or all(own):
+        return ""
+    bare = next(one[0] for one in found if not one[1])
+    if not own[-1] or any(own[:-1]):
+        raise SceneError(f"{text}: {bare} has no unit; give each number its unit, or one behind the last number for all")
+    return own[-1]
+
+
+def _with_unit(value, unit):
+    """A number as text that the unit parser reads."""
+    return f"{value:.{DIGITS}g} {unit}"
 
 
 def column(values):
@@ -100,28 +130,62 @@ def column(values):
     return list(values) if isinstance(values, tuple) else [values]
 
 
-def _listed(item):
-    match = RANGE.fullmatch(item)
-    found = _range(item, *match.groups()) if match else [_value(item)]
+def _listed(item, unit):
+    found = _range(item)
     if isinstance(found, Span):
         raise SceneError(f"{item} in a list has no number of values, {FORMS}")
-    return found
+    if found is not None:
+        return found
+    bare = unit and not units.split(item)[1]
+    return [f"{item} {unit}" if bare else _value(item)]
 
 
-def _range(text, low, high, count, log):
-    a, b = float(low), float(high)
+def _range(text):
+    """Values, or the Span, of text with colons between numbers; None for other text. Raises SceneError."""
+    match = RANGE.fullmatch(text)
+    low, high = [units.split(end) for end in match.groups()[:2]] if match else [None, None]
+    if match is None or low is None or high is None:
+        _refuse_colons(text)
+        return None
+    count, log, behind = match.groups()[2:]
+    if behind:
+        low, high = _unit_behind(text, low, high, behind)
+    a, b, unit = units.in_same_unit(text.strip(), low, high)
+    _check_range(text.strip(), a, b, count, log)
+    if count is None:
+        return Span(a, b, bool(log), unit)
+    values = _spread(a, b, int(count), log)
+    whole = all(value.is_integer() for value in values) and all(re.fullmatch(r"[-+]?\d+", end) for end, _ in (low, high))
+    values = [int(value) for value in values] if whole else values
+    return [_with_unit(value, unit) for value in values] if unit else values
+
+
+def _refuse_colons(text):
+    """Refuse what begins like a range and is none. Raises SceneError."""
+    ends = text.split(":")
+    if len(ends) > 1 and not set(text) & set(",\"'[]{}") and units.split(ends[0]) and (units.split(ends[1]) or not ends[1]):
+        raise SceneError(f"{text.strip()} is no range; allowed: low:high:N with a whole number N, or low:high:N:log, {FORMS}")
+
+
+def _unit_behind(text, low, high, unit):
+    """Both ends with a unit that stands behind the whole range."""
+    if low[1] or high[1]:
+        raise SceneError(f"{text.strip()}: {shown(unit)} is one unit too many; give the unit of the ends or one at the end")
+    return (low[0], unit), (high[0], unit)
+
+
+def _check_range(text, a, b, count, log):
     if log and not (a > 0 and b > 0):
         raise SceneError(f"{text}: a logarithmic range needs positive ends")
-    if count is None:
-        if not a < b:
-            raise SceneError(f"{text}: the first end must be smaller than the second")
-        return Span(a, b, bool(log))
-    if not 1 <= int(count) <= MOST or (int(count) == 1 and a != b):
+    if count is None and not a < b:
+        raise SceneError(f"{text}: the first end must be smaller than the second")
+    if count is not None and (not 1 <= int(count) <= MOST or (int(count) == 1 and a != b)):
         raise SceneError(f"{text} must have 2 to {MOST} values, {FORMS}")
-    values = np.geomspace(a, b, int(count)) if log else np.linspace(a, b, int(count))
-    clean = [_rounded(value, abs(b - a)) for value in values.tolist()]
-    whole = all(value.is_integer() for value in clean) and all(re.fullmatch(r"[-+]?\d+", end) for end in (low, high))
-    return [int(value) for value in clean] if whole else clean
+
+
+def _spread(a, b, count, log):
+    values = np.geomspace(a, b, count) if log else np.linspace(a, b, count)
+    return [_rounded(value, abs(b - a)) for value in values.tolist()]
 
 
 def _rounded(value, length):

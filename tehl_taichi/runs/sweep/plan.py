@@ -226,8 +226,11 @@ def _axis(scene, keys, rows):
 
 
 def _numbers(scene, key, column):
-    """Values of a key, numbers in place of text with a unit. Raises SceneError."""
-    return column_in_units(scene, aliases.full_name(key), column)
+    """Values of a key, or its span, numbers in place of text with a unit. Raises SceneError."""
+    full = aliases.full_name(key)
+    if isinstance(column, axis_syntax.Span):
+        return column.converted(lambda ends: column_in_units(scene, full, ends))
+    return column_in_units(scene, full, column)
 
 
 def _choices(key, found):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.runs.traction.traction_rows import AXES
+from tehl_taichi.runs.traction.traction_rows import axis
 from tehl_taichi.values.digits import fitting
 from tehl_taichi.view.figures import palette
 
@@ -36,9 +36,10 @@ def _panel(ax, found, label, key, unit):
 
 
 def _along(ax, found):
-    _, name, unit, _ = AXES[found.across]
+    _, name, _ = axis(found.study.plan, found.across)
+    factor, unit = scale(found)
     ax.set_xlabel(f"{name} ({unit})" if unit else name)
-    x = np.array([row[AXES[found.across][0]] for row in found.rows])
+    x = np.array([row[axis(found.study.plan, found.across)[0]] * factor for row in found.rows])
     if x.min() > 0 and (x.max() > DECADES * x.min() or _evenly_in_logarithm(x)):
         ax.set_xscale("log")
         ax.xaxis.set_major_formatter("{x:g}")  # plain numbers: no text is read as mathematics
@@ -51,9 +52,15 @@ def _evenly_in_logarithm(x):
     return len(steps) > 1 and np.ptp(steps) < 1e-6 * steps.max()
 
 
+def scale(found):
+    """(factor, unit) of the values along the curves of a Traction."""
+    name, _, unit = axis(found.study.plan, found.across)
+    return fitting(unit, max(abs(row[name]) for row in found.rows))
+
+
 def series(found, rows, key):
     """(x, values, error bars) of the rows of a curve that have this number; nan: error not known."""
     having = [row for row in rows if row[key] is not None]
-    x = [row[AXES[found.across][0]] for row in having]
+    x = [row[axis(found.study.plan, found.across)[0]] * scale(found)[0] for row in having]
     bars = [np.nan if row["error"][key] is None else row["error"][key] for row in having]
     return np.array(x, float), np.array([row[key] for row in having], float), np.array(bars, float)

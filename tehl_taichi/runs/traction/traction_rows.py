@@ -3,12 +3,21 @@
 from pathlib import Path
 
 from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.values.digits import fitting
 
-TEMPERATURE, SPEED, SRR = "temperature", "speed", "srr"
+TEMPERATURE, SPEED, SRR, LOAD, PRESSURE = "temperature", "speed", "srr", "load", "hertz_pressure"
+ALONG = (SRR, SPEED, LOAD, PRESSURE, TEMPERATURE)  # of keys with several values the first is that along the curves
 RESULTS = ("friction_coefficient", "h_c_m", "h_min_m", "film_max_C")
-# {key of the plan: (key of a row, name, unit, unit in a legend)}
-AXES = {SRR: ("srr", "slide-roll ratio SRR", "", ""), SPEED: ("u_m_m_s", "mean speed", "m/s", " m/s"),
-        TEMPERATURE: ("temperature_C", "inlet temperature", "°C", " °C")}
+# {key of the plan: (key of a row, name, unit)}
+AXES = {SRR: ("srr", "slide-roll ratio SRR", ""), SPEED: ("u_m_m_s", "mean speed", "m/s"),
+        TEMPERATURE: ("temperature_C", "inlet temperature", "°C"), LOAD: ("load_N", "load", "N"),
+        PRESSURE: ("p_Hertz_Pa", "Hertz pressure", "Pa")}
+LINE_LOAD = ("load_N_m", "load per length", "N/m")
+
+
+def axis(plan, key):
+    """(key of a row, name, unit) of a swept key."""
+    return LINE_LOAD if key == LOAD and plan.scene.load_unit == LINE_LOAD[2] else AXES[key]
 
 
 class Traction:
@@ -33,8 +42,9 @@ class Traction:
 
     @property
     def rows(self) -> list:
-        """One dictionary per case: srr, temperature_C, u_m_m_s, friction_coefficient, h_c_m, h_min_m, film_max_C, their error
-        bars in "error", converged, reason; numbers are None where a case has no result."""
+        """One dictionary per case: srr, temperature_C, u_m_m_s (and load_N, load_N_m or p_Hertz_Pa where that is swept),
+        friction_coefficient, h_c_m, h_min_m, film_max_C, their error bars in "error", converged, reason; numbers are None where
+        a case has no result."""
         found = {record["case"]: record for record in self.study.results()}
         return [self._row(number, found.get(number)) for number in range(len(self.study))]
 
@@ -42,7 +52,8 @@ class Traction:
         plan, record = self.study.plan, record or {"summary": None, "status": "waiting", "reason": "it has not run yet"}
         changes, o = plan.changes(number), plan.scene.operation
         own = {"srr": float(changes.get(SRR, o.srr)), "temperature_C": float(changes.get(TEMPERATURE, o.temperature)),
-               "u_m_m_s": float(changes.get(SPEED, o.u_m))}
+               "u_m_m_s": float(changes.get(SPEED, o.u_m)),
+               **{axis(plan, key)[0]: float(changes[key]) for key in (LOAD, PRESSURE) if key in changes}}
         results = {key: dig(record["summary"], "steady", key) for key in RESULTS}
         error = {key: error_of(record["summary"], "steady", key) for key in RESULTS}
         return {**own, **results, "error": error, "converged": record["status"] == "converged", "reason": record["reason"]}
@@ -55,7 +66,7 @@ class Traction:
     @property
     def across(self) -> str:
         """The key along the curves: srr, or what alone has several values."""
-        several = [key for key in (SRR, SPEED, TEMPERATURE) if key in self.study.plan.keys
+        several = [key for key in ALONG if key in self.study.plan.keys
                    and len(self.study.plan.coordinate(key)[1]) > 1]
         return several[0] if several else SRR
 
@@ -65,9 +76,15 @@ class Traction:
         others = [key for key in self.study.plan.keys if key != self.across]
         out: dict[str, list] = {}
         for row in self.rows:
-            label = ", ".join(f"SRR {row['srr']:g}" if key == SRR else f"{row[AXES[key][0]]:g}{AXES[key][3]}" for key in others)
+            label = ", ".join(self._words(key, row) for key in others)
             out.setdefault(label, []).append(row)
         return out
+
+    def _words(self, key, row):
+        """The value of a key in a row as a legend shows it."""
+        name, _, unit = axis(self.study.plan, key)
+        factor, shown = fitting(unit, abs(row[name]))
+        return f"SRR {row['srr']:g}" if key == SRR else f"{row[name] * factor:g} {shown}"
 
     @property
     def warnings(self) -> list:

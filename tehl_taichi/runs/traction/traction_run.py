@@ -9,37 +9,46 @@ from typing import Any
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.sweep import axis_syntax, sweeping
 from tehl_taichi.runs.sweep.plan import plan
-from tehl_taichi.runs.traction.traction_rows import SPEED, SRR, TEMPERATURE, Traction
+from tehl_taichi.runs.traction.traction_rows import LOAD, PRESSURE, SPEED, SRR, TEMPERATURE, Traction
 from tehl_taichi.scene import Scene
-from tehl_taichi.scene.aliases import full_name
+from tehl_taichi.scene.aliases import check_swept, full_name
 from tehl_taichi.store.load_scene import find
 
 SRRS = "0:0.5:11"  # of the usual curve
-KEYS = {TEMPERATURE: "operation.temperature", SPEED: "operation.u_m", SRR: "operation.srr"}
+KEYS = {TEMPERATURE: "operation.temperature", LOAD: "contact.load", PRESSURE: "contact.hertz_pressure", SPEED: "operation.u_m",
+        SRR: "operation.srr"}
 
 
 def traction(scene: Scene | str | PathLike, srr: Any = SRRS, temperature: Any = None, speed: Any = None, *,
-             changes: dict | None = None, path: str | PathLike | None = None, workers: int | None = None,
-             threads_per_worker: int | None = None, progress: Callable | None = None, work: Any = None) -> Traction:
+             load: Any = None, hertz_pressure: Any = None, changes: dict | None = None, path: str | PathLike | None = None,
+             workers: int | None = None, threads_per_worker: int | None = None, progress: Callable | None = None,
+             work: Any = None) -> Traction:
     """As :func:`tehl_taichi.traction`; work: as of :func:`tehl_taichi.runs.sweep.sweeping.run`."""
-    found = traction_plan(find(scene), srr, temperature, speed, changes or {})
+    found = traction_plan(find(scene), srr, temperature, speed, changes or {}, load, hertz_pressure)
     place = path if path is not None else default_path(found)
     return Traction(sweeping.run(found, place, workers=workers, threads_per_worker=threads_per_worker, keep="summary",
                                  progress=progress, work=work))
 
 
-def traction_plan(scene, srr=SRRS, temperature=None, speed=None, changes=None):
+def traction_plan(scene, srr=SRRS, temperature=None, speed=None, changes=None, load=None, hertz_pressure=None):
     """The :class:`tehl_taichi.runs.sweep.plan.Plan` of the curves. Temperatures are computed in all cases unless switched off,
     also in pure rolling: its film is in the same curve. Raises SceneError."""
     changes = {full_name(key): value for key, value in (changes or {}).items()}
-    swept = {key: axis_syntax.column(values) for key, values in ((TEMPERATURE, temperature), (SPEED, speed), (SRR, srr))
-             if values is not None}
+    given = {TEMPERATURE: temperature, LOAD: load, PRESSURE: hertz_pressure, SPEED: speed, SRR: srr}
+    swept = {key: axis_syntax.column(values) for key, values in given.items() if values is not None}
     for key in swept:
         if KEYS[key] in changes:
             raise SceneError(f"{key} is swept and {KEYS[key]} = {changes[KEYS[key]]!r} sets it: give one of them")
+    check_swept(changes, swept)
+    changes |= {KEYS[key]: swept.pop(key)[0] for key in (LOAD, PRESSURE) if key in swept and _is_one(swept[key])}
     smooth = dataclasses.replace(scene, features=())
     heat = {"thermal.on": True} if smooth.thermal.on == "auto" else {}
     return plan(smooth.replace(**{**heat, **changes}), swept)
+
+
+def _is_one(values):
+    """Whether it is one value, which is that of all curves."""
+    return isinstance(values, list) and len(values) == 1
 
 
 def default_path(found):

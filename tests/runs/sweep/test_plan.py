@@ -21,6 +21,52 @@ def test_values_as_they_are_typed(text, rows):
     assert [row[0] for row in found] == rows and [type(row[0]) for row in found] == [type(value) for value in rows]
 
 
+LINE = scene("smooth-line").replace(**{"oil.name": "mineral-vg100"})
+
+
+@pytest.mark.parametrize("key, text, values", [
+    ("srr", "0:50%:3", [0.0, 0.25, 0.5]), ("srr", "0%:50 %:3", [0.0, 0.25, 0.5]), ("srr", "0:50:3 %", [0.0, 0.25, 0.5]),
+    ("load", "500:1500 N/mm:3", [5e5, 1e6, 1.5e6]), ("load", "500kN/m:1.5 kN/mm:3", [5e5, 1e6, 1.5e6]),
+    ("load", "500,1000,1500 N/mm", [5e5, 1e6, 1.5e6]), ("temperature", "40:120:3 °C", [40.0, 80.0, 120.0]),
+    ("temperature", "313.15 K:120 degC:3", [40.0, 80.0, 120.0]), ("temperature", "40,80,393.15K", None),
+    ("temperature", "40 °C, 353.15 K", [40.0, 80.0]), ("speed", "1:4:3:log m/s", [1.0, 2.0, 4.0]),
+    ("speed", "600rpm at 0.05m:1200 rpm at 0.05m:2", [np.pi, 2 * np.pi]),
+    ("hertz_pressure", "1GPa,1500:2000MPa:2", [1e9, 1.5e9, 2e9]),
+    ("radius_x", "10:14:3mm", [0.010, 0.012, 0.014]), ("oil.alpha_40", "18:22:3 1/GPa", [18e-9, 20e-9, 22e-9]),
+])
+def test_ranges_and_lists_with_units(key, text, values):
+    key = {"radius_x": "contact.radius_x"}.get(key, key)
+    if values is None:
+        values = [-233.15, -193.15, 120.0]  # one unit behind the last number holds for all: K
+        with pytest.raises(SceneError, match="operation.temperature = -233.15"):
+            plan(LINE, {key: text}).refused()
+    assert plan(LINE, {key: text}).coordinate(key)[1] == pytest.approx(values, rel=1e-12)
+
+
+def test_a_range_with_units_is_the_range_in_si():
+    """Also as samples, in groups, and for the name of the study, by which a repeated command resumes."""
+    assert plan(LINE, {"load": "500:1500:3 kN/m"}) == plan(LINE, {"load": "5e5:15e5:3"})
+    assert plan(LINE, {"srr": "-30:30%"}, samples=5) == plan(LINE, {"srr": "-0.3:0.3"}, samples=5)
+    found = axis_syntax.over_of(["srr=0:50%:3 temperature=40:120:3 °C"])
+    together = plan(LINE, found)
+    assert together.changes(1) == {"srr": 0.25, "temperature": 80.0}
+    assert axis_syntax.over_of(["bodies.a.material=100Cr6,20MnCr5"]) == {"bodies.a.material": ["100Cr6", "20MnCr5"]}
+
+
+@pytest.mark.parametrize("key, text, said", [
+    ("load", "1kN:5:3", "5 has no unit; write 5 kN"), ("load", "1 kN/m,5", "5 has no unit"),
+    ("load", "1,2 kN/m,5 kN/m", "1 has no unit"),
+    ("srr", "0:50%:11 %", "one unit too many"), ("srr", "0:50 mm:3", "'mm' is no unit"), ("srr", "0:0.5:11x", "'x' is no unit"),
+    ("load", "1 mm:5 kN:3", "not units of the same quantity"), ("temperature", "40 C:1 kN:3", "not units of the same"),
+    ("load", "0:5kN/m:3:log", "positive ends"), ("load", "1:5kN/m", "load = 1000:5000 has no number of values"),
+    ("load", "1:5kN:1", "2 to 100000"), ("srr", "0:0.5:5.5", "whole number"), ("srr", "0:0.5:11:lin", "is no range"),
+    ("srr", "0:0.5:", "is no range"), ("temperature", "40C:80C:3C:log", "is no range"),
+])
+def test_units_of_a_range_that_do_not_fit(key, text, said):
+    with pytest.raises(SceneError, match=said):
+        plan(LINE, {key: text}).refused()
+
+
 def test_keys_that_change_together():
     found = axis_syntax.axis_of("srr=-0.1,0,0.1 speed=5:15:3")
     assert found.keys == ("srr", "speed") and found.rows == ((-0.1, 5), (0, 10), (0.1, 15))

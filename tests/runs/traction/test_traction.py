@@ -66,6 +66,18 @@ def test_the_curves_are_over_slip_or_over_speed(tmp_path, curves):
     assert both.across == "srr" and list(both.curves) == ["1 m/s", "2 m/s"]
 
 
+def test_loads_and_pressures_make_curves_too(tmp_path):
+    """Several of them are swept, one is that of all curves and of the study's name."""
+    pressures = traction("mtm", "0:50%:3", hertz_pressure="0.75GPa,1GPa", path=tmp_path / "p.zarr", workers=1, work=made)
+    assert pressures.across == "srr" and list(pressures.curves) == ["750 MPa", "1 GPa"]
+    assert [row["p_Hertz_Pa"] for row in pressures.rows] == [0.75e9] * 3 + [1e9] * 3
+    loads = traction("smooth-line", [0.1], load="0.5:1.5kN/mm:3", path=tmp_path / "l.zarr", workers=1, work=made)
+    assert loads.across == "load" and [row["load_N_m"] for row in loads.rows] == [5e5, 1e6, 1.5e6]
+    one = traction_plan(tehl.scene("mtm"), [0.1], load="30N")
+    assert one.keys == ("srr",) and one.scene.contact.load == 30.0
+    assert default_path(one) == default_path(traction_plan(tehl.scene("mtm"), [0.1], changes={"load": 30.0}))
+
+
 def test_the_figure_has_error_bars_and_a_logarithmic_axis_for_decades(tmp_path, curves):
     pytest.importorskip("matplotlib")
     axes = traction_figure.drawn(FigureStyle(), curves).axes
@@ -85,6 +97,8 @@ def test_the_figure_has_error_bars_and_a_logarithmic_axis_for_decades(tmp_path, 
     (dict(srr="0:0.5"), "srr = 0:0.5 has no number of values"), (dict(srr=[3.0]), "operation.srr = 3 is out of range"),
     (dict(temperature="x"), "operation.temperature = 'x' is not a number"),
     (dict(srr=[0.1], changes={"srr": 0.2}), "srr is swept and operation.srr = 0.2 sets it"),
+    (dict(srr=[0.1], load="1,2 kN/m", hertz_pressure=1e9), "contradict"),
+    (dict(srr=[0.1], load="1,2 kN/m", changes={"hertz_pressure": 1e9}), "contradict"),
     (dict(srr=[0.1, 0.1]), "srr = 0.1 is given twice"), (dict(srr=[]), "srr has no values")])
 def test_wrong_axes_are_refused_before_anything_is_written(tmp_path, options, said):
     with pytest.raises(SceneError, match=said):
