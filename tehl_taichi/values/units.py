@@ -61,7 +61,7 @@ def in_unit(where, value, unit):
 
 
 def split(text):
-    """(number, unit) of "3.8 mm" or "3.8", as text; the unit of a speed by turns is "rpm at 40 mm". None for other text.
+    """(number, unit) of "3.8 mm" or "3.8", as text; turns at a radius have the unit "rpm at 40 mm". None for other text.
 
     >>> split("1500rpm at 40 mm"), split("3.8"), split("limiting")
     (('1500', 'rpm at 40 mm'), ('3.8', ''), None)
