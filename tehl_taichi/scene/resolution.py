@@ -13,6 +13,7 @@ from tehl_taichi.values.coded_warning import with_data
 # 12 to 18, 1 % with 35.
 FEWEST, ENOUGH = 4, 16
 MULTIPLES = {"nx": (16, 8192), "ny": (4, 4096)}  # that a grid must keep to, and its most cells
+WINDOW = 8  # times as fine as a grid is the finest window
 HALVED = 2  # times: by the coarse-grid runs for the errors of a run
 MOST_FEATURES = 256  # each costs a time step 1 ms on 256 x 64 cells: with 60 of them a step takes twice as long
 
@@ -54,9 +55,11 @@ def check(scene):
         _check_x(scene, scales, label(scene, n), feature)
         _check_y(scene, scales, label(scene, n), feature)
     worst = min(sights(scene), key=lambda sight: sight.cells, default=None)
-    if worst and worst.cells * max(scene.zoom.factor, 1) < FEWEST:
+    times = max(scene.zoom.factor, 1)
+    if worst and worst.cells * times < FEWEST:
         raise SceneError(f"{worst.key} = {worst.length:.3g} m is {worst.cells:.2g} cells of grid.{worst.count} = {worst.grid}, "
-                         f"too few to resolve it; allowed: at least {FEWEST} cells: {_remedy(scene, FEWEST, worst)}")
+                         f"too few to resolve it; allowed: at least {FEWEST / times:g} cells: "
+                         f"{_remedy(scene, FEWEST / times, worst)}")
 
 
 def label(scene, n):
@@ -82,14 +85,15 @@ def _check_y(scene, scales, name, feature):
                          f"{edge:.3g} m)")
 
 
-def sights(scene):
-    """An AxisResolution for each feature and axis along which it has a size; none where its shape names none."""
+def sights(scene, passing=False):
+    """An AxisResolution for each feature and axis along which it has a size; none where its shape names none. passing: of the
+    passage of a scene that is steady yet."""
     g = scene.grid
     cell = dict(zip(MULTIPLES, Scales.of(scene).cell(g)))
     out = []
     for n, f in enumerate(scene.features):
         along, across = f.kind.sizes(f)
-        for count, lengths in (("nx", along), ("ny", {} if scene.one_dimensional else across)):
+        for count, lengths in (("nx", along), ("ny", {} if scene.one_dimensional and not passing else across)):
             if lengths:
                 key, length = min(lengths.items(), key=lambda one: one[1])
                 name = f"{label(scene, n)}.{key}"
@@ -108,12 +112,20 @@ def resolved_features(scene, times):
 
 
 def _remedy(scene, cells, worst):
-    """The grid that gives every feature so many cells, or what else helps."""
+    """The grid that gives every feature so many cells, a window beside a grid, or what else helps."""
+    if found := _finer(scene, cells):
+        return found
+    if not scene.zoom.factor and (found := _finer(scene, cells / WINDOW)):
+        return f"--zoom {WINDOW} with {found}"
+    return f"no grid is fine enough; {worst.key} of {worst.length * cells / worst.cells:.2g} m is enough on this one"
+
+
+def _finer(scene, cells):
+    """The option of the grid that gives every feature so many cells; None where it has too many."""
     need = {count: max([getattr(scene.grid, count), *(s.grid_for(cells) for s in sights(scene) if s.count == count)])
             for count in MULTIPLES}
-    if all(need[count] <= most for count, (_, most) in MULTIPLES.items()):
-        return grid_option(need["nx"], need["ny"])
-    return f"no grid is fine enough; {worst.key} of {worst.length * cells / worst.cells:.2g} m is enough on this one"
+    fits = all(need[count] <= most for count, (_, most) in MULTIPLES.items())
+    return grid_option(need["nx"], need["ny"]) if fits else None
 
 
 def warnings(scene):
@@ -124,13 +136,14 @@ def warnings(scene):
 
 
 def _coarse(scene):
-    worst = min(sights(scene), key=lambda sight: sight.cells, default=None)
-    if worst is None or worst.cells * max(scene.zoom.factor, 1) >= ENOUGH:
+    worst, times = min(sights(scene), key=lambda sight: sight.cells, default=None), max(scene.zoom.factor, 1)
+    if worst is None or worst.cells * times >= ENOUGH:
         return []
-    remedy = _remedy(scene, ENOUGH, worst)
-    text = (f"{worst.key} = {worst.length:.3g} m is {worst.cells:.1f} cells of grid.{worst.count} = {worst.grid}; with fewer "
-            f"than {ENOUGH} the film and pressure at a feature have errors above 5 % (about 20 % with 8, 40 % with 4); "
-            f"{remedy}")
+    remedy = _remedy(scene, ENOUGH / times, worst)
+    window = f", {worst.cells * times:.1f} of the window" if times > 1 else ""
+    text = (f"{worst.key} = {worst.length:.3g} m is {worst.cells:.1f} cells of grid.{worst.count} = {worst.grid}{window}; "
+            f"with fewer than {ENOUGH} the film and pressure at a feature have errors above 5 % (about 20 % with 8, 40 % with "
+            f"4); {remedy}")
     return [with_data(text, remedy, length_m=worst.length, cells=worst.cells)]
 
 

@@ -18,7 +18,7 @@ from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.flank.flank_run import fresh
 from tehl_taichi.runs.flank.outcomes import summaries
 from tehl_taichi.runs.progress import Progress
-from tehl_taichi.scene import Scene, scene_file
+from tehl_taichi.scene import Scene, grid_for_features, scene_file
 from tehl_taichi.scene.aliases import settled, words
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.film_formula import formula_words, heated_film, spread
@@ -38,12 +38,13 @@ SLIPPED = 41  # points of the slip over an ellipse that are kept
 
 @dataclasses.dataclass(frozen=True)
 class RingCase:
-    """One ring: its RingContact, DryContact, EllipseSlip (None: rollers) and scene."""
+    """One ring: its RingContact, DryContact, EllipseSlip (None: rollers), scene, and words about a grid chosen for it."""
 
     contact: object
     dry: object
     slip: object
     scene: Scene
+    grid: str = ""
 
 
 def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None, axial: float | None = None,
@@ -57,11 +58,12 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
         roughness = in_unit("roughness", roughness, "m")
         number("roughness", roughness, "m", 1e-10, 1e-4, usual=1e-7)
     found = bearing_source(what, {**(dimensions or {}), "load": load, "axial": axial, "speed": speed})
-    base = ring_scenes.base_of(find(scene) if scene is not None else found.scene or default_scene(), feature)
+    start = find(scene) if scene is not None else found.scene or default_scene()
+    base = ring_scenes.base_of(start, feature)
     passing = bool(base.features) and not steady and (feature is not None or scene is not None or found.scene is not None)
     changes = settled([(words(key, value), key, value) for key, value in (changes or {}).items()])
     ring_scenes.check_free(changes)
-    loads, speeds, rings = solved(found, base, changes, on if passing else "")
+    loads, speeds, rings = solved(found, base, changes, on if passing else "", grid_for_features.is_open(start, changes))
     target = path_of("folder", folder) if folder else fresh(found.name)
     Bearing.check_writable(target)
     _check_stores(target, rings)
@@ -69,25 +71,29 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     made = Bearing(target, record)
     made.write()
     write_scenes(target, rings)
+    for case in (case for case in rings.values() if case.grid):
+        (progress or Progress()).say(case.grid)
     return _run(made, rings, workers, threads, progress) if run else made
 
 
-def solved(found, base, changes, on):
-    """(loads, speeds, {ring: :class:`RingCase`}) of a BearingSource; on: the ring that carries the features, "" for none."""
+def solved(found, base, changes, on, choose=False):
+    """(loads, speeds, {ring: :class:`RingCase`}) of a BearingSource; on: the ring that carries the features, "" for none;
+    choose: whether their grid is chosen here."""
     which, E = found.bearing, reduced_modulus(base.replace(**ring_scenes.bodies(changes)))
     free = ring_contacts.contacts(which)
     loads = load_distribution.distribution(which, stiffness.of_bearing(which, free, E))
     contacts = free if which.rollers else ring_contacts.contacts(which, loads.angle)
     speeds = kinematics.speeds(which, contacts)
-    return loads, speeds, {ring: _ring(found, base, changes, contacts[ring], loads, speeds, E, ring == on) for ring in RINGS}
+    return loads, speeds, {ring: _ring(found, base, changes, contacts[ring], loads, speeds, E, ring == on, choose)
+                           for ring in RINGS}
 
 
-def _ring(found, base, changes, contact, loads, speeds, E, passes):
+def _ring(found, base, changes, contact, loads, speeds, E, passes, choose):
     dry = dry_contact(found.bearing, contact, loads.largest, E)
     slip = None if found.bearing.rollers else ellipse_slip.slip_over(contact, dry.b, speeds.u_m, speeds.spin[contact.ring])
-    made = ring_scenes.ring_scene(base, changes, f"{found.name}-{contact.ring}", contact, dry, speeds.u_m,
-                                  slip.representative if slip else 0.0, passes)
-    return RingCase(contact, dry, slip, made)
+    made, words = ring_scenes.ring_scene(base, changes, f"{found.name}-{contact.ring}", contact, dry, speeds.u_m,
+                                         slip.representative if slip else 0.0, passes, choose)
+    return RingCase(contact, dry, slip, made, words)
 
 
 def bearing_record(found, folder, loads, speeds, rings, roughness):
@@ -127,7 +133,7 @@ def _ring_record(which, case, speeds, folder):
     return {"R_x_m": contact.R_x, "R_y_m": contact.R_y, "a_m": dry.a, "b_m": dry.b, "p_Hertz_Pa": dry.p_H,
             "u_m_m_s": speeds.u_m, "contact": dry.words, "load_N": dry.load, "passes_per_s": speeds.passes[ring],
             "static_safety": safety(which, dry.p_H, line), **_slip_record(case.slip, speeds.spin[ring]),
-            **_formula(case.scene), "scene_file": str(Path(folder) / f"{ring}.toml"),
+            **_formula(case.scene), "grid": case.grid, "scene_file": str(Path(folder) / f"{ring}.toml"),
             "store": str(Path(folder) / f"{case.scene.name}.zarr"), "converged": False, "reason": "", "summary": None}
 
 

@@ -6,6 +6,7 @@ import math
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.bearing.dry_contact import LINE
 from tehl_taichi.runs.flank.line_contacts import room
+from tehl_taichi.scene import grid_for_features
 from tehl_taichi.scene.aliases import BY_SURFACE, full_name
 from tehl_taichi.scene.description import Scene
 
@@ -31,9 +32,9 @@ def check_free(changes):
             raise SceneError(f"{key} has no effect: dimensions, load and speed of the bearing set it")
 
 
-def ring_scene(base, changes, name, contact, dry, u_m, srr, passes):
-    """The scene called `name` of one ring; contact: its RingContact, dry: its DryContact, passes: whether features pass here.
-    Raises SceneError that says which ring."""
+def ring_scene(base, changes, name, contact, dry, u_m, srr, passes, choose=False):
+    """(the scene called `name` of one ring, words about its grid); contact: its RingContact, dry: its DryContact, passes:
+    whether features pass here, choose: whether their grid is chosen here. Raises SceneError that says which ring."""
     own = {"name": name, "contact.kind": dry.kind, "contact.radius_x": contact.R_x,
            "contact.radius_y": math.inf if dry.kind == LINE else contact.R_y, "contact.load": dry.scene_load,
            "operation.u_m": u_m, "operation.srr": srr if abs(srr) > SMALLEST else 0.0}
@@ -44,7 +45,9 @@ def ring_scene(base, changes, name, contact, dry, u_m, srr, passes):
     try:
         wider = room(base.replace(**bodies(given)), dry.scene_load, contact.R_x) if passes and dry.kind == LINE else {}
         kept = {key: value for key, value in wider.items() if key not in given}
-        return (base if passes else smooth(base)).replace(**{**own, **grid, **kept, **given, "time.steady_only": not passes})
+        keys, start = {**own, **grid, **kept, **given}, base if passes else smooth(base)
+        fine, words = grid_for_features.fitting(start, keys) if choose and passes else ({}, "")
+        return start.replace(**{**keys, **fine, "time.steady_only": not passes}), words
     except SceneError as error:
         raise SceneError(f"{contact.ring} ring: {error}") from None
 

@@ -3,7 +3,7 @@
 import math
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import hertz
+from tehl_taichi.scene import grid_for_features, hertz
 from tehl_taichi.scene.aliases import BY_SURFACE, full_name
 from tehl_taichi.scene.scales import reduced_modulus
 
@@ -17,6 +17,11 @@ def scene_at(base, changes, name, n, position):
 
     Temperatures are computed at all positions unless switched off: rolling at the pitch point is in the same table then.
     """
+    return scene_and_grid_at(base, changes, name, n, position, False)[0]
+
+
+def scene_and_grid_at(base, changes, name, n, position, choose=True):
+    """(the scene of a position as :func:`scene_at`, words about its grid); choose: whether that is chosen for the features."""
     try:
         given = {full_name(key): value for key, value in changes.items()}
         _check_free(given)
@@ -24,7 +29,9 @@ def scene_at(base, changes, name, n, position):
         steady = given.get("time.steady_only", base.time.steady_only)
         own = _own(plain, name, n, position, "operation.temperature" in given)
         wider = {} if steady else room(plain, position.load, position.R)
-        return base.replace(**{**own, **given, **wider})
+        keys = {**own, **given, **wider}
+        fine, words = grid_for_features.fitting(base, keys) if choose and not steady else ({}, "")
+        return base.replace(**keys, **fine), words and f"{where(position)}: {words}"
     except SceneError as error:
         raise SceneError(f"position {where(position)}: {error}") from None
 

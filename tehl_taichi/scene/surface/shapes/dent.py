@@ -40,7 +40,7 @@ class Dent(Shape):
         return f.rim
 
     def sizes(self, f):
-        sizes = {"width": f.width, **({"rim_width": f.rim_width} if f.rim_width else {})}
+        sizes = {"width": f.width, "rim_width": self.rim_width(f)}
         return sizes, dict(sizes)
 
     def check(self, f):
@@ -55,7 +55,7 @@ DENT = Dent(
     name="dent", says="round dent with a raised rim",
     source="dents of particles have shoulders (Ville & Nelias, Tribology Transactions 42, 1999); cosines chosen here",
     uses={"height": "negative: depth of the dent", "width": "of the dent inside its rim"}, keys=Rim,
-    example={"shape": "dent", "height": -1e-6, "width": 150e-6, "rim": 0.2e-6},
+    example={"shape": "dent", "height": -1e-6, "width": 200e-6, "rim": 0.2e-6},
     checked=(share("the middle of the rim is its top", 1.0, 75e-6, 100e-6, shape="dent", height=-1e-6, width=200e-6, rim=2e-7),
              share("half of the rim at a quarter of its width", 0.5, 112.5e-6, 0.0, shape="dent", height=-1e-6, width=200e-6,
                    rim=2e-7),

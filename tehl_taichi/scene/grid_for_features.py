@@ -1,0 +1,90 @@
+"""The grid that resolves the features of a scene, with a fine window where that takes less work."""
+
+import contextlib
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import idle_keys, resolution
+from tehl_taichi.scene.resolution import ENOUGH, FEWEST
+from tehl_taichi.scene.scales import Scales
+
+WORK = 8.0  # of a passage over that on the grid of the scene, that is still chosen by itself: minutes in place of a minute
+FACTORS = 0, 4, 8  # of a window; 0: none
+# Work of a run with a window over that of the run: it is marched up to twice again beside the window, whose nodes and steps are
+# as many times as fine, on a part of the passage (tehl run gear --zoom 4 at SRR 0.12: five times)
+AGAIN, PART, BESIDE = 3.0, 0.4, (0.5, 0.3)  # BESIDE: a, of the window to each side of the features
+AIMS = ENOUGH, 8, FEWEST  # cells of the smallest length
+COLUMNS, ROWS = (128, 64), (32, 16)  # (least, multiple) of a grid that is chosen
+KEYS = "grid.nx", "grid.ny", "zoom.factor"
+
+
+def is_open(scene, changes=()):
+    """Whether the user left the grid of a scene open, in the scene and in changes of it (full keys)."""
+    return not {key for key in {*idle_keys.user_keys(scene), *changes} if key in KEYS}
+
+
+def fitting(base, keys):
+    """As :func:`chosen`, for `base` with changes of these full keys."""
+    steady = {key: value for key, value in keys.items() if not key.startswith("time.")} | {"time.steady_only": True}
+    return chosen(base.replace(**steady))
+
+
+def chosen(scene):
+    """({full key: value}, words about them): ({}, "") where the grid resolves every feature, or none that takes WORK does.
+    scene: with its contact; nothing of its passage is looked at."""
+    sights = resolution.sights(scene, passing=True)
+    if all(sight.cells >= ENOUGH for sight in sights):
+        return {}, ""
+    ways = ((aim, factor) for aim in AIMS for factor in FACTORS)
+    found = (_way(scene, sights, aim, factor) for aim, factor in ways)
+    return next((changes for changes in found if changes), ({}, ""))
+
+
+def _way(scene, sights, aim, factor):
+    """(changes, words) of a grid that has `aim` cells of every length in a window so many times as fine; None where it takes
+    more than WORK, or the scene has no room for the window."""
+    cells = aim / max(factor, 1)
+    ny = max(_count(scene, sights, "ny", cells, ROWS), 0 if factor else scene.grid.ny)
+    widest = max(scene.grid.nx, _count(scene, sights, "nx", cells, COLUMNS))
+    for nx in (widest, _count(scene, sights, "nx", cells, COLUMNS)):
+        changes = {"grid.nx": nx, "grid.ny": ny, **({"zoom.factor": factor} if factor else {})}
+        work = _windowed(scene, factor) * _work(nx, ny) / _work(scene.grid.nx, scene.grid.ny)
+        if work <= WORK and _has_room(scene, changes):
+            return changes, _words(scene, sights, changes, work)
+    return None
+
+
+def _count(scene, sights, key, cells, least):
+    """Cells along an axis that give every length `cells` of them."""
+    own, (fewest, multiple) = getattr(scene.grid, key), least
+    needed = max([fewest, *(own * cells / sight.cells for sight in sights if sight.count == key)])
+    return int(-(-needed // multiple)) * multiple
+
+
+def _windowed(scene, factor):
+    """Work of a run with a window over that without."""
+    s, g = Scales.of(scene), scene.grid
+    domain = (g.x_max - g.x_min) / 2, g.y_max * s.b / s.a
+    shares = [min((max(f.reach, f.reach_y) / s.a + beside) / half, 1.0) for f in scene.features
+              for half, beside in zip(domain, BESIDE)]
+    return AGAIN + PART * max(shares[::2]) * max(shares[1::2]) * factor**3 if factor else 1.0
+
+
+def _work(nx, ny):
+    """Nodes times steps, which are as many as columns."""
+    return nx * nx * ny
+
+
+def _has_room(scene, changes):
+    with contextlib.suppress(SceneError):
+        scene.replace(**changes, **{"time.steady_only": False})
+        return True
+    return False
+
+
+def _words(scene, sights, changes, work):
+    worst = min(sights, key=lambda sight: sight.cells)
+    factor = max(changes.get("zoom.factor", 1), 1)
+    cells = worst.cells * changes[f"grid.{worst.count}"] / worst.grid * factor
+    window = f" with a window {factor} times as fine" if factor > 1 else ""
+    return (f"grid {changes['grid.nx']}x{changes['grid.ny']}{window}: {cells:.0f} cells of {worst.key} = {worst.length:.3g} m "
+            f"({worst.cells:.1f} on {scene.grid.nx}x{scene.grid.ny}); about {work:.2g} times the work; --grid chooses another")
