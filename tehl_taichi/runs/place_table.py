@@ -28,7 +28,8 @@ CONTACT = {"R_m": ("reduced radius R'", "mm"), "u_m_m_s": ("entrainment speed", 
            "load_N_m": ("load", "N/mm"), "p_Hertz_Pa": ("Hertz pressure", "GPa"), "Sq_m": ("Sq of both surfaces", "um"),
            "lambda": ("lambda", ""), "lambda_GF": ("specific film lambda_GF", ""),
            "h_min_Ra": ("h_min/Ra", ""), "bulk_C": ("bulk temperature", "deg C"),
-           "passages": ("passages to initiation", ""), "worse_body": ("worse body", ""),
+           "von_mises_max_Pa": ("largest von Mises stress", "GPa"), "passages": ("passages to initiation", ""),
+           "hours": ("hours to initiation", ""), "worse_body": ("worse body", ""),
            "Fi_judged": ("Fi judged", "")}
 OF_A_PLACE = ("contact.", "operation.u_", "operation.srr")  # keys of scenes that positions and rings set
 WIDER = "grid."  # begins keys that they may set

@@ -111,7 +111,10 @@ ROWS = (
     _result(PASSAGE, "passage_p_max_Pa", "largest pressure, GPa", 1e-9, ".3f", "transient", "p_max_Pa"),
     _result(PASSAGE, "passage_h_min_m", "smallest film, um", 1e6, ".3g", "transient", "h_min_m"),
     _result(PASSAGE, "Fi_max", "Fi at the surface", 1, ".3f", "fatigue", "Fi_max"),
-    _result(PASSAGE, "Fi_max_below", "Fi below the surface", 1, ".3f", "fatigue", "below", "Fi_max"))
+    _result(PASSAGE, "Fi_max_below", "Fi below the surface", 1, ".3f", "fatigue", "below", "Fi_max"),
+    _result(PASSAGE, "von_mises_max_Pa", "largest von Mises stress, GPa", 1e-9, ".3f", "von_mises", "max_Pa"),
+    _result(PASSAGE, "passages", "passages to initiation", 1, ".2g", "life", "passages"),
+    _result(PASSAGE, "hours", "hours to initiation", 1, ".2g", "life", "hours"))
 
 
 def tables(bearing):

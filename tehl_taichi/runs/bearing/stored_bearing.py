@@ -1,5 +1,6 @@
 """A bearing as its folder keeps it: loads, both contacts with their summaries, the table, the figure."""
 
+from tehl_taichi.runs import machine_life
 from tehl_taichi.runs.bearing import bearing_table
 from tehl_taichi.runs.bearing.ring_contacts import RINGS
 from tehl_taichi.runs.contact_set import ContactSet
@@ -51,7 +52,7 @@ class Bearing(ContactSet):
     def with_ring(self, ring, outcome):
         """A copy with the outcome of the run of a ring."""
         done = {**self.record[ring], "converged": outcome.summary is not None, "reason": outcome.reason,
-                "summary": outcome.summary}
+                "summary": machine_life.with_hours(outcome.summary, machine_life.of_ring(self.record, self.record[ring]))}
         return Bearing(self.folder, {**self.record, ring: done})
 
     def _csv(self):

@@ -8,6 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 from tehl_taichi.errors import interrupt
+from tehl_taichi.runs import machine_life
 from tehl_taichi.runs.flank.flank_source import flank_source
 from tehl_taichi.runs.flank.line_contacts import scene_at
 from tehl_taichi.runs.flank.mesh import Mesh
@@ -64,8 +65,10 @@ def _settled(changes, steady):
 
 def flank_record(subject, places, scenes, outcomes):
     """The JSON object of a flank: what it is :func:`about`, and its positions with their scenes and outcomes."""
-    Ra = 0.5 * (subject["geometry"].get("Ra1", 0.0) + subject["geometry"].get("Ra2", 0.0))
-    return plain({**subject, "positions": [_position(*one, Ra) for one in zip(places, scenes, outcomes)]})
+    pair = subject["geometry"]
+    Ra = 0.5 * (pair.get("Ra1", 0.0) + pair.get("Ra2", 0.0))
+    rates = machine_life.of_gears(pair["n1"], pair["z1"], pair["z2"], pair["on"]) if "z1" in pair else None
+    return plain({**subject, "positions": [_position(*one, Ra, rates) for one in zip(places, scenes, outcomes)]})
 
 
 def about(found, folder, on):
@@ -87,13 +90,14 @@ def _geometry(pair, on):
             "points_x_pl_m": {name: sign * x + 0.0 for name, x in mesh.points.items()}}
 
 
-def _position(at, scene, outcome, Ra):
-    """The entry of a position; Ra: mean roughness of both flanks in m, 0: not given."""
+def _position(at, scene, outcome, Ra, rates):
+    """The entry of a position; Ra: mean roughness of both flanks in m, 0: not given; rates: ContactRates, None of a table."""
     bulk = None if at.bulk is None else scene.operation.temperature
     return {"point": at.point, "x_pl_m": at.x_pl, "arc_m": at.arc, "rho_a_m": at.rho_a, "rho_b_m": at.rho_b, "R_m": at.R,
             "u_a_m_s": at.u_a, "u_b_m_s": at.u_b, "srr": at.srr, "load_N_m": at.load, "p_Hertz_Pa": Scales.of(scene).p_H,
             "bulk_C": bulk, "film_ratios": film_ratios(scene, outcome.summary, Ra), **at.more, "store": str(outcome.store),
-            "converged": outcome.summary is not None, "reason": outcome.reason, "summary": outcome.summary}
+            "converged": outcome.summary is not None, "reason": outcome.reason,
+            "summary": machine_life.with_hours(outcome.summary, rates)}
 
 
 def fresh(name):
