@@ -32,13 +32,15 @@ class Profile:
 
 
 def ladder(passage):
-    """Depths (m) searched, from half a cell to 0.9 a; with a window those of the run and shallower ones."""
+    """Depths (m) searched, from half a cell to 0.9 a or the deepest of the passage; with a window those of the run and
+    shallower ones."""
     factor = passage.reader.window.factor if has_window(passage.reader) else 1
     first, last = SHALLOWEST * passage.dx * factor, DEEPEST * passage.a
     count = max(5, int(np.ceil(np.log(last / first) / np.log(RATIO))) + 1)
     depths = np.geomspace(first, last, count)
     more = int(np.log(factor) / np.log(depths[1] / depths[0]) + 1e-9)
-    return np.concatenate([depths[0] * (depths[0] / depths[1]) ** np.arange(more, 0, -1.0), depths])
+    shallower = depths[0] * (depths[0] / depths[1]) ** np.arange(more, 0, -1.0)
+    return np.concatenate([shallower, depths[depths <= passage.deepest]])
 
 
 def profiles(passage, rows, windows=(slice(None),), notify=lambda done, total: None):

@@ -58,8 +58,8 @@ def march_on(saved, state, notify=None, changes=()):
     """March on from the last checkpoint of the store, whose state :meth:`Store.go_back` gave, to the end of its scene;
     notify(snapshot) after each step; changes: of the surfaces, see :func:`tehl_taichi.march.passage.march`.
 
-    One step is written while the next one is computed. The solver gives up the interpreter's lock thousands of times a step: it
-    must not wait 5 ms for the writer each time.
+    One step is written while the next one is computed; some states stay in `saved.kept_states`, where that is not None. The
+    solver gives up the interpreter's lock thousands of times a step: it must not wait 5 ms for the writer each time.
     """
     before, total, pending = sys.getswitchinterval(), total_steps(saved.scene), None
     states, shown, thinned = Interval(EVERY, total), Interval(SHOWN, total), Thinned(saved.scene.output.every, total)
@@ -69,6 +69,8 @@ def march_on(saved, state, notify=None, changes=()):
             for snapshot in march(saved.scene, state, changes):
                 if (entry := thinned.of(snapshot)) is not None:
                     keep = entry.state if states.at(entry.step) else None
+                    if keep and saved.kept_states:
+                        saved.kept_states.add(keep)
                     if pending:
                         pending.result()
                     pending = writer.submit(saved.append, entry, keep, shown.at(entry.step))

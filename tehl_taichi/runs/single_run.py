@@ -211,6 +211,7 @@ def _finish(saved, state, steady, clock, progress):
     from tehl_taichi.runs.summary.summary import summarise
 
     with background_errors.background_answers(saved.scene) as start_coarse:
+        saved.kept_states = _kept_states(saved.scene, state)
         run_in = _march(saved, state, progress)
         until = _resolved(saved)
         coarse_answers = start_coarse(until)
@@ -227,6 +228,18 @@ def _finish(saved, state, steady, clock, progress):
         arrays = _with_steel(run_in, found, arrays) if run_in else arrays
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage, **steel}, found), arrays)
     return Run(saved)
+
+
+def _kept_states(scene, state):
+    """KeptStates of a march from this state; None where no window follows it again for its temperatures, or run-in repeats
+    it."""
+    if not scene.zooms or scene.isothermal or scene.runs_in:
+        return None
+    from tehl_taichi.march.zoom.kept_states import KeptStates
+
+    kept = KeptStates()
+    kept.add(state)
+    return kept
 
 
 def _zoom(saved, passage, alone, domain, steady, progress):

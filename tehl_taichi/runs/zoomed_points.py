@@ -1,18 +1,43 @@
 """Points of a body that are searched again where a run has a fine window: those that the run found badly loaded."""
 
+from dataclasses import replace
+
 import numpy as np
 
+from tehl_taichi.fatigue.depth_profile import RATIO
 from tehl_taichi.scene.scales import Scales
 
 SURFACE, BELOW = 0.7, 0.9  # of the largest stress there, from which a point counts; below, the contact alone has much of it
-BESIDE = 0.06  # a, around these points
+BESIDE = 0.06  # a, around these points; below, one depth
+LEAST = 5  # depths of the run: stresses between them are cubics
 KEPT = "statistics", "stressed"  # of the summary, which need all points
 
 
 def ends(scene, found):
-    """{surface: ((x' from, to), (y from, to)) m} of the points to search; found: the SearchResult of the run alone. Of rough
-    surfaces all, {}."""
-    return {} if found.numbers.get("rough") else {name: _of(one, Scales.of(scene).a) for name, one in found.by_surface.items()}
+    """{surface: ((x' from, to), (y from, to), (depth from, to)) m} of the points to search; found: the SearchResult of the run
+    alone. Of rough surfaces all, {}."""
+    if found.numbers.get("rough"):
+        return {}
+    deepest = max(_deepest(one) for one in found.by_surface.values())
+    return {name: (*_of(one, Scales.of(scene).a), (0.0, deepest)) for name, one in found.by_surface.items()}
+
+
+def _deepest(found):
+    """Depth down to which the window may matter: there the stress of the run is much less than its largest."""
+    if found.findley_stress_under_row is None:
+        return np.inf
+    depths, under = found.row_depths, found.findley_stress_under_row.max(axis=1)
+    if found.limit_under_row is not None:
+        under = under / found.limit_under_row
+    last = max(np.flatnonzero(under >= BELOW * under.max())[-1], LEAST,
+               np.searchsorted(depths, max(_worst_depths(found.numbers))))
+    return float(depths[last + 1] * (1 + 1e-9)) if last + 1 < depths.size else np.inf
+
+
+def _worst_depths(numbers):
+    """Depths (m) of the worst points of a search."""
+    wide, steel = numbers.get("averaged", {}).get("below", {}), numbers.get("von_mises", {})
+    return [part.get("depth_m", 0.0) for part in (numbers.get("below", {}), wide, steel)]
 
 
 def _of(found, a):
@@ -36,16 +61,42 @@ def at_an_end(found, ends_of, cell):
     one may lie beyond; found: SearchResult; ends_of: of :func:`ends`; cell: m."""
     for name, one in found.by_surface.items():
         points = [one.numbers, *([one.numbers["below"]] if "below" in one.numbers else [])]
-        if name in ends_of and any(_near(ends_of[name], part, cell) for part in points):
+        if name in ends_of and (any(_near(ends_of[name], part, cell) for part in points)
+                                or max(_worst_depths(one.numbers)) * RATIO > ends_of[name][2][1]):
             return True
     return False
 
 
 def _near(box, part, cell):
-    """Whether a point lies within a cell of an end of a box."""
-    (left, right), (low, high) = box
+    """Whether a point lies within a cell of an end of a box, but for that below."""
+    (left, right), (low, high), _ = box
     x, y = part["x_m"], part["y_m"]
     return min(x - left, right - x, y - low, high - y) < cell
+
+
+def deeper(found, run):
+    """The SearchResult of some points, down to some depth, with the stresses under a row of the run's below that."""
+    others = run.by_surface
+    return replace(_deeper(found, others[found.numbers["surface"]]),
+                   other=found.other and _deeper(found.other, others[found.other.numbers["surface"]]))
+
+
+def _deeper(found, run):
+    more = None if found.findley_stress_under_row is None else run.row_depths > found.row_depths[-1] * (1 + 1e-6)
+    if more is None or not more.any():
+        return found
+    depths = "fatigue_depth" if found.under_row_depth is None else "under_row_depth"
+
+    def under(one, other):
+        rows = [np.interp(found.feature_frame_x, run.feature_frame_x, row) for row in other.findley_stress_under_row[more]]
+        return np.concatenate([one.findley_stress_under_row, rows])
+
+    changes = {depths: np.append(found.row_depths, run.row_depths[more]), "findley_stress_under_row": under(found, run)}
+    if found.limit_under_row is not None:
+        changes["limit_under_row"] = np.append(found.limit_under_row, run.limit_under_row[more])
+    if part := found.resolved:
+        changes["resolved"] = replace(part, findley_stress_under_row=under(part, run.resolved or run))
+    return replace(found, **changes)
 
 
 def completed(summaries, run):
@@ -57,4 +108,6 @@ def _with(summary, run):
     out = {**summary, **{key: run[key] for key in KEPT if key in run}}
     if "below" in summary and "statistics" in run.get("below", {}):
         out["below"] = {**summary["below"], "statistics": run["below"]["statistics"]}
+    if "searched_m" in summary.get("below", {}) and "searched_m" in run.get("below", {}):
+        out["below"]["searched_m"] = [summary["below"]["searched_m"][0], run["below"]["searched_m"][1]]
     return out

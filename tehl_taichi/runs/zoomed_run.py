@@ -44,6 +44,7 @@ def levels(saved, progress):
     factors = [factor for factor in (scene.zoom.factor // 2, scene.zoom.factor) if factor > 1]
     progress.stage(ZOOM, 0, len(saved) - 1)
     found = zoomed_passage.passages(scene, saved, factors, functools.partial(progress.stage, ZOOM), _until(saved))
+    saved.kept_states = None
     return [ZoomLevel(one, ZoomedReader(saved, one, scene.symmetric)) for one in found]
 
 
@@ -60,7 +61,7 @@ def search(saved, found, alone, progress):
         level.reader.kept_heat = found[-1].reader.kept_heat
         results.append(_searched(saved, level, zoomed_points.ends(saved.scene, alone), progress))
         level.searches = zoomed_points.completed(results[-1].summaries, alone.summaries)
-    return found[-1].searches, results[0].to_arrays()
+    return found[-1].searches, zoomed_points.deeper(results[0], alone).to_arrays()
 
 
 def _searched(saved, level, ends, progress):

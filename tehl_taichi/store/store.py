@@ -36,6 +36,8 @@ class Store(LockedFolder, Reader):
     A writer holds the lock of its folder until :meth:`close` (or the end of a `with`).
     """
 
+    kept_states = None  # KeptStates of the march that writes it, where a window follows that again
+
     @classmethod
     def create(cls, path, scene, snapshot, capacity, attrs=None):
         """New store on the grid of `snapshot`, which becomes its first entry; room for `capacity` entries.

@@ -9,22 +9,23 @@ from tehl_taichi.scene.scales import Scales
 
 GEAR = tehl.scene("gear")
 X, Y = np.linspace(-2e-4, 2e-4, 41), np.linspace(0, 1e-4, 11)
+DEPTHS = np.append(0.0, 3e-6 * 1.5 ** np.arange(12))
 
 
 def found(at, deep, rough=False, surface="a"):
     """A search whose stress is largest at this column and row, below it at that column."""
-    stress, under = np.full((X.size, Y.size), 1e8), np.full((4, X.size), 3e8)
+    stress, under = np.full((X.size, Y.size), 1e8), np.full((DEPTHS.size, X.size), 3e8)
     stress[at], under[2, deep] = 4e8, 6e8
     summary = {"surface": surface, "rough": rough, "Fi_max": 1.0, "statistics": 1, "below": {"Fi_max": 1.5, "statistics": 2}}
-    return tehl.SearchResult(summary, feature_frame_x=X, feature_frame_y=Y, findley_stress=stress,
+    return tehl.SearchResult(summary, feature_frame_x=X, feature_frame_y=Y, findley_stress=stress, fatigue_depth=DEPTHS,
                              findley_stress_under_row=under)
 
 
 def test_the_worst_points_of_the_run_are_inside():
-    (left, right), (low, high) = zoomed_points.ends(GEAR, found((20, 4), 28))["a"]
+    (left, right), (low, high), _ = zoomed_points.ends(GEAR, found((20, 4), 28))["a"]
     side = zoomed_points.BESIDE * Scales.of(GEAR).a
     assert np.allclose((left, right, low, high), (X[20] - side, X[28] + side, Y[4] - side, Y[4] + side))
-    assert zoomed_points.ends(GEAR, found((1, 1), 39))["a"] == ((-np.inf, np.inf), (-np.inf, Y[1] + side))
+    assert zoomed_points.ends(GEAR, found((1, 1), 39))["a"][:2] == ((-np.inf, np.inf), (-np.inf, Y[1] + side))
 
 
 @pytest.mark.parametrize("changes, cut", [({}, False), ({"x_m": -9.9e-5}, True), ({"x_m": 5.9e-5}, True), ({"y_m": 0.0}, False),
@@ -35,9 +36,42 @@ def test_a_worst_point_at_an_end_of_what_was_searched_is_seen(changes, cut, part
     points[part] |= changes
     deep = {"Fi_max": 1.0, **points["below"]}
     result = tehl.SearchResult({"surface": "b", "Fi_max": 1.0, **points["surface"], "below": deep})
-    box = {"b": ((-1e-4, 6e-5), (-np.inf, 3e-5))}
+    box = {"b": ((-1e-4, 6e-5), (-np.inf, 3e-5), (0.0, np.inf))}
     assert zoomed_points.at_an_end(result, box, 2e-6) is cut
     assert not zoomed_points.at_an_end(result, {}, 2e-6)
+
+
+def test_depths_far_below_the_worst_ones_are_those_of_the_run():
+    whole = found((20, 4), 28)
+    assert zoomed_points.ends(GEAR, whole)["a"][2] == (0.0, pytest.approx(DEPTHS[zoomed_points.LEAST + 1]))
+    whole.summary["von_mises"] = {"depth_m": 0.99 * DEPTHS[8]}
+    assert zoomed_points.ends(GEAR, whole)["a"][2] == (0.0, pytest.approx(DEPTHS[9]))
+    whole.findley_stress_under_row[11, 3] = 5.5e8
+    assert zoomed_points.ends(GEAR, whole)["a"][2] == (0.0, pytest.approx(DEPTHS[12]))
+    whole.findley_stress_under_row[12, 3] = 5.5e8
+    assert zoomed_points.ends(GEAR, whole)["a"][2] == (0.0, np.inf)
+
+
+@pytest.mark.parametrize("depth, cut", [(1e-5, False), (3.1e-5, True)])
+@pytest.mark.parametrize("place", [("below",), ("averaged", "below"), ("von_mises",)])
+def test_a_worst_depth_at_the_end_of_what_was_searched_is_seen(place, depth, cut):
+    summary = {"surface": "a", "Fi_max": 1.0, "x_m": 0.0, "y_m": 0.0}
+    part = summary
+    for key in place:
+        part = part.setdefault(key, {})
+    part |= {"depth_m": depth, "x_m": 0.0, "y_m": 0.0, "Fi_max": 1.0}
+    box = {"a": ((-1e-4, 1e-4), (-np.inf, 1e-4), (0.0, 4.5e-5))}
+    assert zoomed_points.at_an_end(tehl.SearchResult(summary), box, 2e-6) is cut
+
+
+def test_stresses_far_below_are_those_of_the_run():
+    whole, x = found((20, 4), 28), np.linspace(-1e-4, 1e-4, 41)
+    part = tehl.SearchResult({"surface": "a"}, feature_frame_x=x, fatigue_depth=np.array([0.0, 1e-6, 3e-6, 4.5e-6]),
+                             findley_stress_under_row=np.full((4, x.size), 7e8))
+    whole.findley_stress_under_row[5] = 1e12 * X
+    joined = zoomed_points.deeper(part, whole)
+    assert np.allclose(joined.fatigue_depth, [0.0, 1e-6, *DEPTHS[1:]]) and joined.findley_stress_under_row.shape == (14, x.size)
+    assert (joined.findley_stress_under_row[:4] == 7e8).all() and np.allclose(joined.findley_stress_under_row[6], 1e12 * x)
 
 
 def test_of_rough_surfaces_all_points_are_searched():

@@ -96,6 +96,33 @@ def test_a_window_with_temperatures_has_the_hottest_film(folder):
     assert numbers(later.summary) == numbers(whole.summary)
 
 
+def test_a_late_window_follows_the_run_from_a_state_that_it_kept(folder, monkeypatch):
+    """With the digits of one that follows it from its start."""
+    from tehl_taichi.march.zoom import marched_heat
+    from tehl_taichi.runs import recorder
+
+    scene = tehl.scene("gear").replace(**{"feature.length": float("inf"), "grid.nx": 64, "time.x_end": 0.0,
+                                          "fatigue.depths": (), "numerics.estimate_error": False, "zoom.factor": 2,
+                                          "zoom.from_x": -0.2})
+    begun, march = [], marched_heat.march
+
+    def watched(scene, state=None, changes=()):
+        begun.append(0 if state is None else int(state["step"]))
+        return march(scene, state, changes)
+
+    monkeypatch.setattr(marched_heat, "march", watched)
+    summaries = []
+    for name, seconds in (("kept", 0.0), ("start", 1e9)):  # between the states that are kept
+        monkeypatch.setattr(recorder, "EVERY", seconds)
+        run = tehl.run(scene, folder / f"{name}.zarr")
+        first = int(Reader.open(run.path).map("zoom_entry")[0]) - 1
+        assert begun[-1] > 0 if name == "kept" else set(begun) == {0}
+        assert begun[-1] <= first - 4
+        summaries.append(numbers(run.summary))
+        begun.clear()
+    assert summaries[0] == summaries[1]
+
+
 def test_what_cannot_have_a_window(plain, folder):
     with pytest.raises(tehl.SceneError, match="zoom.factor = 5 is not one of"):
         tehl.zoom(plain.path, 5)

@@ -31,12 +31,13 @@ class StressHistories:
     first feature, `centres` of the frame of the surface (m).
 
     reader: x, y (m), time (s), len, feature_x(n) (m), fields(n, names) in SI; entry 0 is the steady start; positions (m): the
-    first feature's at every entry; its `searched`, where it has one: {surface: ((x' from, to), (y from, to)) m}, of the points
-    that are wanted; window: half width (in a) of the part around one small feature; surface: whose points
+    first feature's at every entry; its `searched`, where it has one: {surface: ((x' from, to), (y from, to), (depth from, to))
+    m}, of the points to search; window: half width (in a) of the part around one small feature; surface: whose points
     (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`), that of the first feature where nothing else is said.
     """
 
     block = 16  # entries whose stresses are found at once
+    deepest = np.inf  # depth down to which points are searched, m
     left = None  # by plastic flow: a :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`
 
     def __init__(self, scene, reader, positions, window=WINDOW, surface=None):
@@ -67,10 +68,10 @@ class StressHistories:
         self._choose_moments()
 
     def _keep(self, ends):
-        """Only the points with x' and y between these ends, ((low, high), (low, high)) m, those of all where there are none."""
+        """Only the points with x', y and depth between these ends, (low, high) m each, those of all where there are none."""
         if ends is None:
             return
-        (left, right), (low, high) = ends
+        (left, right), (low, high), (_, self.deepest) = ends
         self.x = self.x[(self.x >= left) & (self.x <= right)]
         rows = np.flatnonzero((self.y >= low) & (self.y <= high)) + self.rows.start
         self.rows = slice(rows[0], rows[-1] + 1)

@@ -38,7 +38,7 @@ class BaseState:
 
 class BaseStates:
     """States of the run of a scene that `reader` holds (every step, the steady start first); its `surface_changes`, where it
-    has any: what run-in left of the surfaces."""
+    has any: what run-in left of the surfaces; its `kept_states`: KeptStates of its march."""
 
     def __init__(self, scene, reader):
         self.scene, self.reader, self.scales = scene, reader, Scales.of(scene)
@@ -47,8 +47,13 @@ class BaseStates:
         self.smooth = self.grid.smooth_gap()
         self.mirrored = self.grid.ny > 0 and scene.symmetric
         self.last, self.first_x, self.way = len(reader) - 1, scene.path[0], step_length(scene)
-        self.heat = None if scene.isothermal else MarchedHeat(scene, self.changes)
+        self.heat = None if scene.isothermal else MarchedHeat(scene, self.changes, getattr(reader, "kept_states", None))
         self.entry = functools.lru_cache(maxsize=2 * POINTS)(self._entry)
+
+    def skip_to(self, step):
+        """Take the states from this step on, and those that polynomials need beside it."""
+        if self.heat:
+            self.heat.skip_to(step - POINTS)
 
     def position(self, step):
         """Centre of the first feature, a, at a step (or between two)."""

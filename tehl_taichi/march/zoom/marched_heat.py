@@ -1,5 +1,6 @@
 """Temperatures of a run, computed again step by step: stores do not hold what a window needs of them."""
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,10 +20,20 @@ class HeatState:
 
 
 class MarchedHeat:
-    """The HeatState of a step of the run of `scene`, in rising order; changes: of its surfaces by run-in."""
+    """The HeatState of a step of the run of `scene`, in rising order; changes: of its surfaces by run-in; kept: KeptStates of
+    it or None."""
 
-    def __init__(self, scene, changes=()):
-        self.shots, self.states, self.newest = march(scene, changes=changes), {}, -1
+    def __init__(self, scene, changes=(), kept=None):
+        self.march, self.kept = functools.partial(march, scene, changes=changes), kept
+        self.shots, self.states, self.newest = self.march(), {}, -1
+        if kept and kept.start:
+            self._begin_at(kept.start)
+
+    def skip_to(self, step):
+        """Steps before this one are not looked for any more, but for the start."""
+        state = self.kept.before(step) if self.kept and self.kept.start else None
+        if state and int(state["step"]) > self.newest:
+            self._begin_at(state)
 
     def at(self, step):
         """The HeatState of a step, of the newest ones. Raises NotConverged where the run does."""
@@ -30,7 +41,14 @@ class MarchedHeat:
             self._advance()
         return self.states[step]
 
+    def _begin_at(self, state):
+        self.shots = self.march(state)
+        self._keep(state)
+
     def _advance(self):
-        state, self.newest = next(self.shots).state, self.newest + 1
-        self.states[self.newest] = HeatState(*(np.array(state[f"heat_{name}"]) for name in ("T", "memory", "offset")))
+        self._keep(next(self.shots).state)
         self.states.pop(self.newest - KEPT, None)
+
+    def _keep(self, state):
+        self.newest = int(state["step"])
+        self.states[self.newest] = HeatState(*(np.array(state[f"heat_{name}"]) for name in ("T", "memory", "offset")))

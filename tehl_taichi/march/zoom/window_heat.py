@@ -12,7 +12,7 @@ from tehl_taichi.march.zoom.two_frames import TwoFrames
 
 WHOLE = 1e-9  # cells
 HOTTER = 20.0  # K, that a film is guessed to become than it was
-ORDER = 1  # of the extrapolation in time
+ORDER = 2  # of the extrapolation in time
 
 
 class WindowHeat:

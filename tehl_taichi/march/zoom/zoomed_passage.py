@@ -53,6 +53,7 @@ def passages(scene, reader, factors, notify=lambda done, total: None, until=None
     base = BaseStates(scene, reader)
     marches = [WindowPassage(base, Window.of(scene, factor)) for factor in factors]
     out, (first, last) = [ZoomedPassage(march.window) for march in marches], steps_of(scene, base, until)
+    base.skip_to(first)
     for march in marches:
         march.begin(first)
     for step in range(first, last):

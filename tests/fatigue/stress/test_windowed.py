@@ -147,9 +147,10 @@ def test_depths_are_those_of_the_run_and_down_to_half_a_cell_of_the_window(facto
 
 def test_only_the_points_that_are_wanted_are_searched():
     reader = zoomed(GEAR)
-    reader.searched = {"a": ((-2e-5, 6e-5), (0.0, 3e-5))}
+    reader.searched = {"a": ((-2e-5, 6e-5), (0.0, 3e-5), (0.0, 2e-5))}
     passage, top, deep = histories(GEAR, reader, "a")
     assert -2e-5 <= passage.x.min() and passage.x.max() <= 6e-5 and passage.y.max() <= 3e-5
+    assert depth_profile.ladder(passage)[-1] <= 2e-5 < depth_profile.RATIO * depth_profile.ladder(passage)[-1] * 1.01
     whole, all_top, _ = histories(GEAR, zoomed(GEAR), "a")
     x, y = (np.flatnonzero(np.isin(*pair)) for pair in ((whole.x, passage.x), (whole.y, passage.y)))
     top, own = top.reshape(x.size, y.size, -1, 6), all_top.reshape(whole.x.size, whole.y.size, -1, 6)[np.ix_(x, y)]

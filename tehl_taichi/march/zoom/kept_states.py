@@ -1,0 +1,25 @@
+"""States of a march kept in memory, so that it can be followed again from near a step without the steps before."""
+
+MOST = 8  # of them; a thermal one has 11 MB at 257x65x9
+
+
+class KeptStates:
+    """States of :func:`tehl_taichi.march.passage.march` in rising order; the first one stays, the others thin out."""
+
+    def __init__(self):
+        self.states = []
+
+    def add(self, state):
+        """One more."""
+        self.states.append(state)
+        if len(self.states) > MOST:
+            del self.states[1::2]
+
+    @property
+    def start(self):
+        """The state before the first step; None where the march was not followed from there."""
+        return self.states[0] if self.states and int(self.states[0]["step"]) == 0 else None
+
+    def before(self, step):
+        """The newest state at or before a step, None where there is none."""
+        return next((state for state in reversed(self.states) if int(state["step"]) <= step), None)
