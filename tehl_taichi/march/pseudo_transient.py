@@ -1,4 +1,5 @@
 """Pseudo-transient start, where the alternation of pressure and temperatures finds no steady state: both together in time.
+From the temperatures of a coarser grid where that has some, else from cold oil.
 
 In alternation, oil and bodies warm for a sixth of the domain under a film that does not answer: a thick one with a cold inlet
 overshoots, 30 to 80 K back and forth, or collapses. In time it answers within a step. Stages, see :func:`march_to_rest`: the
@@ -34,23 +35,32 @@ STILL, PATIENT = 0.3, 30
 SHORTER = 0.7
 
 
-def march_to_rest(solver, heat, P, H0):
-    """From the isothermal P and H0, a cold film and cold bodies. Returns the SolveReport of the steady pressure; converged =
+def march_to_rest(solver, heat, P, H0, T=None, finest=True):
+    """From the isothermal P and H0 and the temperatures T of a coarser grid; without those, or where that fails on the finest
+    grid, from a cold film and cold bodies. Returns the SolveReport of the steady pressure; converged =
     False where the temperatures do not rest: then the newest state in time is left, and heat.report.change (K) is what its last
     two blocks differ by, inf where there are none."""
-    for onset in ONSETS:
+    for onset in _ways(T is not None, finest):
         put(solver, P, H0)
-        heat.start()
+        heat.start(None if onset else T)
         together = PseudoTransient(solver, heat)
-        together.slip_in(onset)
-        together.rest(walls=0.0, most=ON_THE_WAY)
+        if onset:
+            together.slip_in(onset)
+            together.rest(walls=0.0, most=ON_THE_WAY)
         change, most = together.settled()
+        if not (change < most or together.lost):
+            together.shorten()
+            change, most = together.settled()
         if not together.lost:
             break
-    if not (change < most or together.lost):
-        together.shorten()
-        change, most = together.settled()
     return _judged(together, change, most)
+
+
+def _ways(warm, finest):
+    """Onsets of the slip to try one after the other, in transits; 0: from the temperatures of a coarser grid. A coarser grid,
+    which only gives an error and a start, has one."""
+    cold = ONSETS if finest else ONSETS[: 1 - warm]
+    return (0.0, *cold) if warm else cold
 
 
 def check(solver, heat):

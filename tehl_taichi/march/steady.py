@@ -79,18 +79,18 @@ def solve_steady(scene, scales, nx, ny, look=None, full=False):
 
 
 def _with_temperatures(solver, heat, T, finest):
-    """Alternately, from the temperatures T of a coarser grid; on the finest grid in time, where that fails. Returns the
-    SolveReport, and whether what did not settle is a state in time."""
+    """Alternately, from the temperatures T of a coarser grid; in time, where that fails. Returns the SolveReport, and whether
+    what did not settle on the finest grid is a state in time."""
     P, H0, resolved = solver.levels.get(fields.P), solver.H0, finest and not _touches(solver)
     border, solver.border = solver.border, None
     report, trouble = settle(solver.levels, heat, between_blocks(solver, border), T)
     report = agreed(solver, border, report)
     if report.converged and trouble and resolved:
         report = check(solver, heat)
-    if report.converged or not resolved:  # surfaces that touch flip from step to step: no time makes up for the grid
+    if report.converged or _touches(solver):  # surfaces that touch flip from step to step: no time makes up for the grid
         return report, False
-    report = agreed(solver, border, march_to_rest(solver, heat, P, H0))
-    return report, not (report.converged or heat.held) and math.isfinite(heat.report.change)
+    report = agreed(solver, border, march_to_rest(solver, heat, P, H0, T, finest))
+    return report, finest and not (report.converged or heat.held) and math.isfinite(heat.report.change)
 
 
 def _touches(solver):

@@ -125,6 +125,7 @@ def test_in_time_the_same_state_as_by_turns(monkeypatch):
     forced_in_time(monkeypatch)
     in_time = first()
     assert not in_time.unsettled and in_time.scalars["residual"] < 1e-6 and in_time.scalars["mass_error"] < 1e-6
+    assert len(in_time.grids) == len(by_turns.grids) == 2  # error bars need the coarser grids, too
     for name, unit in (("h_c_m", 1e-3 * by_turns.scalars["h_c_m"]), ("film_max_C", 0.3), ("surface_a_max_C", 0.3)):
         assert in_time.scalars[name] == pytest.approx(by_turns.scalars[name], abs=unit), name
 
@@ -342,12 +343,46 @@ def test_what_does_not_rest_by_whole_cells_is_marched_by_shorter_steps(monkeypat
             steps.append(self.dt)
             return changes[len(steps) - 1][0]
 
-    steps, heat = [], SimpleNamespace(start=lambda: None, sound=True, report=SimpleNamespace(change=0.0),
+    steps, heat = [], SimpleNamespace(start=lambda T: None, sound=True, report=SimpleNamespace(change=0.0),
                                       bodies=SimpleNamespace(warm_resting=lambda: None))
     monkeypatch.setattr(pseudo_transient, "PseudoTransient", March)
     monkeypatch.setattr(pseudo_transient, "put", lambda *_: None)
     report = pseudo_transient.march_to_rest(None, heat, None, 0.0)
     assert report.converged == converged and steps == [1.0, pseudo_transient.SHORTER][: 1 + shorter]
+
+
+@pytest.mark.parametrize("lost, starts", [((), ["warm"]), ((0.0,), ["warm", 0.5]), ((0.0, 0.5), ["warm", 0.5, 2.0])])
+def test_a_march_begins_at_the_temperatures_of_a_coarser_grid(monkeypatch, lost, starts):
+    """From cold oil only where that is lost, on the finest grid alone."""
+    from tehl_taichi.march import pseudo_transient
+
+    class March(pseudo_transient.PseudoTransient):
+        def __init__(self, solver, heat):
+            self.lost, self.onset, self.dt, self.transit = False, 0.0, 1.0, 1.0
+
+        def slip_in(self, onset):
+            self.onset = onset
+
+        def rest(self, walls=1.0, most=None):
+            self.lost = self.onset in lost
+            return 0.0
+
+        def checked(self):
+            return 0.0
+
+    def begun(coarse, finest):
+        seen = []
+        heat = SimpleNamespace(start=lambda T: seen.append("cold" if T is None else "warm"))
+        monkeypatch.setattr(March, "slip_in", lambda march, onset: seen.append(onset) or setattr(march, "onset", onset))
+        pseudo_transient.march_to_rest(None, heat, None, 0.0, coarse, finest)
+        return [one for one in seen if one != "cold"]
+
+    from types import SimpleNamespace
+
+    for name, stand_in in (("PseudoTransient", March), ("put", lambda *_: None), ("_judged", lambda *_: None)):
+        monkeypatch.setattr(pseudo_transient, name, stand_in)
+    assert begun(np.zeros(1), True) == starts and begun(np.zeros(1), False) == ["warm"]
+    assert begun(None, False) == [0.5]
 
 
 @pytest.mark.slow  # two minutes
