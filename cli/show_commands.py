@@ -185,10 +185,12 @@ def _show_run(saved, as_json):
 
 def _state(saved):
     """State of a run, and the command that finishes it."""
+    from tehl_taichi.runs import run_in_stage
+
     if saved.writer:
-        return f"still being written by {saved.writer}"
+        return f"still being written by {saved.writer}{run_in_stage.words(saved)}"
     if not saved.finished:
-        return f"not finished; resume with: tehl resume {saved.path}"
+        return f"not finished{run_in_stage.words(saved)}; resume with: tehl resume {saved.path}"
     return "finished" if saved.cut is None else f"finished, cut at {saved.cut:.2f} a; extend with: tehl resume {saved.path}"
 
 

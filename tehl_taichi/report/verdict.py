@@ -8,6 +8,7 @@ from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.number_text import index, value_text
 from tehl_taichi.report.scene_text import WHOLE, material, moments, when
+from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.summary import life, limit_meaning, rim_warnings
 from tehl_taichi.runs.summary.result_warnings import place, steel_bodies
 from tehl_taichi.scene import feature_wording, yield_stress
@@ -202,7 +203,8 @@ def _none_yet(store):
              f"It was stopped, or a step did not converge; `tehl resume {store.path.name}` continues it.")
     question = FATIGUE if store.scene.has_fatigue else FILM
     return Answer(question, "No answer yet: the run is not finished.", "none", (
-        f"{store.last_step} of {total} time steps are stored. {state}",), _version(store), tuple(store.warnings))
+        f"{store.last_step} of {total} time steps are stored{run_in_stage.words(store)}. {state}",), _version(store),
+        tuple(store.warnings))
 
 
 def _cut(store):

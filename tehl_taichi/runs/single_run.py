@@ -9,6 +9,7 @@ from pathlib import Path
 
 from tehl_taichi.errors import SceneError, StoreError, interrupt
 from tehl_taichi.fatigue.pressure_alone import WITHOUT, searched, why_none
+from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress
 from tehl_taichi.runs.stored_run import Run
 from tehl_taichi.scene import Scene
@@ -369,6 +370,8 @@ def _missing(left):
     """Missing part of a passage as text."""
     from tehl_taichi.scene.timeline import total_steps
 
+    if running := run_in_stage.words(left.store):
+        return running
     if left.store.last_step < total_steps(left.scene):
         return ""
     return ", the whole passage; stresses and errors are missing" if left.scene.has_fatigue else ""

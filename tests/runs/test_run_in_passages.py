@@ -12,7 +12,9 @@ import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment
 from tehl_taichi.fatigue.assessment import Snapshots
 from tehl_taichi.march.passage import march
+from tehl_taichi.plastic.run_in import RunInState
 from tehl_taichi.report import verdict
+from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.summary import result_warnings, summary_rows
 
 STEEL = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "feature.height": 3e-6,
@@ -78,7 +80,10 @@ def test_a_killed_run_resumes_inside_its_passage_to_the_same_numbers(done, tmp_p
     path = tmp_path / "killed.zarr"
     with pytest.raises(KeyboardInterrupt):
         tehl.run(STEEL, path, threads=2, progress=Stop(passage, step))
+    where = ", passage 1 of run-in (round 1)" if passage == 1 else ", passage 1 of run-in (round 3)"
+    assert run_in_stage.words(tehl.open(path).store) == where
     again = tehl.resume(path, threads=2)
+    assert not run_in_stage.words(again.store)
     for key in ("surface_change_max_m", "residual_min_Pa", "plastic_strain_max", "history"):
         assert again.summary["run_in"][key] == done.summary["run_in"][key]
     assert again["p_max"].value == done["p_max"].value
@@ -137,3 +142,11 @@ def test_a_window_with_more_pressure_than_steel_flowed_under_is_a_warning():
     for less in ({"p_max_Pa": 5.1e9, "base": {"p_max_Pa": 5e9}}, {"p_max_Pa": 4.5e9, "base": {"p_max_Pa": 4e9}}):
         assert not list(result_warnings.running_in(store, {"run_in": run_in, "zoom": less}))
     assert not list(result_warnings.running_in(store, {"run_in": run_in}))
+
+
+@pytest.mark.parametrize("state, words", [
+    (None, ""), (RunInState(), ", passage 1 of run-in (round 1)"), (RunInState(rounds=2), ", passage 1 of run-in (round 3)"),
+    (RunInState(passages=1), ", passage 2 of run-in"), (RunInState(passages=2), ", the passage after run-in"),
+    (RunInState(passages=1, done=True), "")])
+def test_an_unfinished_run_says_which_passage_it_has_reached(state, words):
+    assert run_in_stage.words(SimpleNamespace(run_in=state, scene=STEEL)) == words

@@ -79,8 +79,14 @@ def _peclet(scene, scales):
 def so_far(store):
     """JSON object of a run without a summary: not finished, or still being written."""
     return {"scene": store.scene.name, "version": attributes.text(store.attrs, "version"), "store": str(store.path),
-            "finished": False, "written_by": store.writer, "steps": store.last_step, **counts(store),
+            "finished": False, "written_by": store.writer, "steps": store.last_step, **_run_in_so_far(store), **counts(store),
             "left_out": store.scene.left_out(), "warnings": store.warnings}
+
+
+def _run_in_so_far(store):
+    """Passages of run-in that were made, and rounds of the one that runs."""
+    state = store.run_in
+    return {"run_in": {"passages": state.passages, "rounds": state.rounds, "done": state.done}} if state else {}
 
 
 def counts(store):
