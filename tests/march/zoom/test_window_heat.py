@@ -60,13 +60,16 @@ def test_a_feature_of_b_at_the_opposite_slip_has_the_same_temperatures(as_coarse
 @pytest.mark.slow
 @pytest.mark.parametrize("srr, feature", [(-0.12, 1.5e-6), (0.12, 1.5e-6), (0.12, -1.5e-6)])
 def test_a_window_four_times_as_fine_gives_what_a_run_four_times_as_fine_does(srr, feature):
+    """Within 2 % of what that gives with two time steps: a dent at +0.12 has 4.50 and 4.44 GPa, 225.8 and 220.8 deg C."""
     changes = {"operation.srr": srr, "feature.height": feature, "grid.nx": 128, "time.x_end": 1.5}
     run, found = zoomed(4, **changes)
-    reader, fine = ZoomedReader(run, found, True), InMemory(tehl.march(LINE.replace(**{**changes, "grid.nx": 512})))
-    for name, within in (("p_max_Pa", 0.02), ("film_max_C", 0.02), ("h_min_m", 0.02)):
+    four = {**changes, "grid.nx": 512}
+    fine = [InMemory(tehl.march(LINE.replace(**{**four, "time.courant": courant}))) for courant in (1.0, 0.75)]
+    reader = ZoomedReader(run, found, True)
+    for name in ("p_max_Pa", "film_max_C", "h_min_m"):
         extreme = np.min if name == "h_min_m" else np.max
-        now, there = (extreme(one.scalar(name)[1:]) for one in (reader, fine))
-        assert abs(now - there) < within * there, name
+        now, *there = (extreme(one.scalar(name)[1:]) for one in (reader, *fine))
+        assert 0.98 * min(there) < now < 1.02 * max(there), name
 
 
 def test_fields_with_several_numbers_at_a_node_are_refined_alike():
