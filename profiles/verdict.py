@@ -4,11 +4,14 @@ Every scene runs once on each of three grids, without a search, and again for ea
 on all of them, so that its error bars are those of a run with coarse-grid runs.
 """
 
+import json
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from tehl_taichi.profiles import measure
 
+from tehl_taichi import __version__
+from tehl_taichi.disk import files
 from tehl_taichi.errors import Error
 from tehl_taichi.fatigue import assessment, material_length
 from tehl_taichi.fatigue.pressure_alone import searched
@@ -16,7 +19,8 @@ from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.march.accuracy.domain_error import DomainError
 from tehl_taichi.runs.single_run import completed
 from tehl_taichi.runs.sweep import pool
-from tehl_taichi.scene import scene
+from tehl_taichi.scene import Scene, scene
+from tehl_taichi.store.json_values import plain
 from tehl_taichi.values.digits import micrometres, with_error
 
 SCENES = ("gear", "dent", "touching-asperity", "rough-pair")
@@ -57,7 +61,7 @@ class VerdictRow:
 def run(folder, quick=False, progress=None, workers=1, threads=None):
     """Generator of the rows so far, in the order of scenes and variants: after each row, with several workers after each scene.
 
-    Stores lie in `folder` and are used again. progress: called with a line of text; workers, threads: as of
+    Stores and rows lie in `folder` and are used again. progress: called with a line of text; workers, threads: as of
     :func:`tehl_taichi.profiles.measure.side_by_side`.
     """
     folder, found, names = Path(folder).absolute(), {}, SCENES[:1] if quick else SCENES
@@ -91,13 +95,37 @@ def rows(name, folder, quick=False, progress=None):
     base, stores = scene(name).replace(**(QUICK if quick else FINER.get(name, {}))), {}
     for variant, changes in VARIANTS.items():
         described, own = base.replace(**changes), variant if "time.run_in" in changes else ""
+        file = folder / f"{name}-{variant}-{base.grid.nx}x{base.grid.ny}.json"
+        if kept := _kept(file, described):
+            yield kept
+            continue
         try:
             stores[own] = stores.get(own) or _passages(described if own else base, folder, progress, f"-{own}" if own else "")
             if progress:
                 progress(f"{name}: {MEANS[variant]}")
-            yield _row(name, variant, described, *stores[own])
+            row = _row(name, variant, described, *stores[own])
+            _keep(file, described, row)
+            yield row
         except Error as error:
             yield VerdictRow(name, variant, reason=str(error))
+
+
+def _keep(file, description, row):
+    """Write a row beside the stores that it was searched in."""
+    with files.blamed(file):
+        content = {"version": __version__, "scene": description.to_dict(), "row": plain(plain_row(row))}
+        files.replace(file, json.dumps(content).encode())
+
+
+def _kept(file, description):
+    """The VerdictRow of a scene that an earlier suite of this version left; None where there is none."""
+    try:
+        found = files.json_of(file)
+        if found["version"] != __version__ or Scene.from_dict(found["scene"]) != description:
+            return None
+        return VerdictRow(**{**found["row"], "limits_Pa": tuple(found["row"]["limits_Pa"])})
+    except (OSError, ValueError, KeyError, TypeError, Error):
+        return None
 
 
 def _passages(base, folder, progress, variant=""):

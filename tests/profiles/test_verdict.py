@@ -40,7 +40,7 @@ def test_rows_of_a_scene_and_its_stores_again(tmp_path, monkeypatch, taichi_cpu)
     assert list(rows) == list(verdict.VARIANTS) and all(not row.reason for row in rows.values())
     assert rows["case"].Fi_below < 0.8 * rows["default"].Fi_below and rows["all"].Fi_surface < rows["case"].Fi_surface
     assert rows["default"].limits_Pa == (4e8, 4e8) and rows["case"].limits_Pa[1] < rows["case"].limits_Pa[0] < 6e8
-    assert {path.name for path in tmp_path.iterdir()} == {f"gear{own}-32x8.zarr" for own in ("", "-run-in", "-all")}
+    assert {path.name for path in tmp_path.glob("*.zarr")} == {f"gear{own}-32x8.zarr" for own in ("", "-run-in", "-all")}
     assert rows["run-in"].Fi_below == rows["default"].Fi_below  # on this grid nothing yields at 2.2 GPa
     made = (tmp_path / "gear-32x8.zarr" / "zarr.json").stat().st_mtime_ns
     assert list(verdict.run(tmp_path, quick=True))[-1] == list(rows.values())
@@ -73,6 +73,30 @@ def test_rows_are_handed_out_one_by_one(tmp_path, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         so_far.extend(verdict.run(tmp_path, quick=True))
     assert [len(rows) for rows in so_far] == [1, 2, 3, 4] and [row.variant for row in so_far[-1]] == list(verdict.VARIANTS)[:4]
+    assert len(list(verdict.run(tmp_path, quick=True))[-1]) == 5 and made == ["gear"] * 4  # the last one alone
+
+
+def test_rows_are_kept_beside_their_stores(tmp_path, monkeypatch):
+    """Of the same scene and version; a damaged one is searched again."""
+    made = []
+
+    def row(name, variant, *_):
+        made.append(variant)
+        return verdict.VerdictRow(**{**vars(ROW), "variant": variant})
+
+    monkeypatch.setattr(verdict, "_passages", lambda *_: (None, []))
+    monkeypatch.setattr(verdict, "_row", row)
+    first, again = (list(verdict.rows("gear", tmp_path)) for _ in range(2))
+    assert first == again and made == list(verdict.VARIANTS) and first[0].limits_Pa == ROW.limits_Pa
+    (tmp_path / "gear-case-256x64.json").write_text("{")
+    assert list(verdict.rows("gear", tmp_path)) == first and made[5:] == ["case"]
+    monkeypatch.setattr(verdict, "RESIDUAL", None)
+    monkeypatch.setitem(verdict.VARIANTS, "residual", {"fatigue.residual_xx": -3e8})
+    list(verdict.rows("gear", tmp_path))
+    assert made[6:] == ["residual"]
+    monkeypatch.setattr(verdict, "__version__", "0.0")
+    list(verdict.rows("gear", tmp_path))
+    assert made[7:] == list(verdict.VARIANTS)
 
 
 def search(top, deep, **more):
