@@ -54,7 +54,7 @@ def contacts(
     dpi: Dpi = 160,
     figure_width: FigureWidth = 17.0,
     workers: Annotated[Optional[int], Option(help="number of contacts computed at the same time (default: one per "
-                                                   "core)")] = None,
+                                                   "core; 1 while a feature passes)")] = None,
     threads: Annotated[Optional[int], Option(help="CPU threads per contact (default: the cores that --workers leaves, or "
                                                   "1)")] = None,
     as_json: Annotated[bool, Option("--json", help="print one JSON object to stdout and all else to stderr")] = False,

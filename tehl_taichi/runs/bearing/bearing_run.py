@@ -73,6 +73,8 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     write_scenes(target, rings)
     for case in (case for case in rings.values() if case.grid):
         (progress or Progress()).say(case.grid)
+    if workers is None and threads is None and passing:
+        workers = 1  # all cores for the passage, which takes minutes, the other ring seconds
     return _run(made, rings, workers, threads, progress) if run else made
 
 

@@ -14,7 +14,7 @@ import tehl_taichi as tehl
 from tehl_taichi.disk import user_files
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.report import bearing_page, document, place_sections
-from tehl_taichi.runs.bearing import bearing_figure, bearing_table
+from tehl_taichi.runs.bearing import bearing_figure, bearing_run, bearing_table
 from tehl_taichi.runs.bearing.bearing_source import bearing_source
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.open_results import kind
@@ -139,6 +139,15 @@ def test_a_ring_without_a_result_is_named(tmp_path, monkeypatch):
     found = tehl.bearing("6205", **DUTY, folder=tmp_path / "b", workers=1)
     assert found.failed == {"inner": "made up"}
     assert "Not converged" in [section.title for section in bearing_page.of(found.folder).shown]
+
+
+@pytest.mark.parametrize("options, used", [({}, 1), ({"steady": True}, None), ({"workers": 2}, 2), ({"threads": 1}, None)])
+def test_a_passage_has_all_cores(tmp_path, monkeypatch, options, used):
+    """The other ring takes seconds."""
+    seen = []
+    monkeypatch.setattr(bearing_run, "summaries", lambda scenes, folder, workers, *rest: seen.append(workers) or iter(()))
+    tehl.bearing("6206", **DUTY, feature=tehl.Feature(**DENT), folder=tmp_path / "b", **options)
+    assert seen == [used]
 
 
 def test_a_dent_passes_on_one_ring(tmp_path):
