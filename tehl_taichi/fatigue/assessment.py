@@ -159,7 +159,7 @@ def _result(scene, passage, layers, below, alone):
     points = [found.worst for found in layers[1:]] + below.worst
     if points:
         point = worst_of(points)
-        summary["below"] = {"depth_m": point.depth, **point.summary(), **local_strength.of_point(strength, point),
+        summary["below"] = {"depth_m": point.depth, **point.summary(), **local_strength.of_point(passage, point),
                             "cycles_above_1": stress_cycles.above(point.stress, point.normal, point.local)}
         arrays["worst_below"] = point.history(centres)
     if below.profiles:

@@ -5,13 +5,18 @@ import numpy as np
 from tehl_taichi.scene.strength.table import YIELD
 
 
-def of_point(strength, point):
-    """Strength at a point below the surface: "sigma_eF_Pa", "kappa_F", "residual_xx_Pa", "residual_yy_Pa"."""
-    if strength.table is None:
+def of_point(passage, point):
+    """Strength at a point below the surface of a StressHistories: with a table "sigma_eF_Pa", "kappa_F"; with that, or after
+    run-in, "residual_xx_Pa", "residual_yy_Pa"."""
+    table, left = passage.strength.table, passage.left
+    if table is None and left is None:
         return {}
-    local, (along, across) = point.local, strength.residual(point.depth)
-    return {"sigma_eF_Pa": local.endurance, "kappa_F": local.kappa, "residual_xx_Pa": float(along),
-            "residual_yy_Pa": float(across)}
+    along, across = passage.strength.residual(point.depth)
+    if left is not None:
+        found = left.at([point.x], [point.y], [point.depth])[0, 0, 0]
+        along, across = along + found[0], across + found[1]
+    limits = {"sigma_eF_Pa": point.local.endurance, "kappa_F": point.local.kappa} if table else {}
+    return {**limits, "residual_xx_Pa": float(along), "residual_yy_Pa": float(across)}
 
 
 def limits(strength, depths):

@@ -28,8 +28,8 @@ def part(scene, surface, reader, centres, progress):
     layers = [layer(scene, passage, depth, progress, None) for depth in (0.0, *scene.fatigue.listed)]
     deep = depth_search.search(scene, passage, layers, None, progress).worst if scene.fatigue.depths else []
     progress.end()
-    below, strength = worst_of([found.worst for found in layers[1:]] + deep), passage.strength
-    deepest = {"depth_m": below.depth, **below.summary(), **local_strength.of_point(strength, below)} if below else {}
+    below = worst_of([found.worst for found in layers[1:]] + deep)
+    deepest = {"depth_m": below.depth, **below.summary(), **local_strength.of_point(passage, below)} if below else {}
     return {"length_m": scene.fatigue.length, **layers[0].worst.summary(), **({"below": deepest} if below else {})}
 
 

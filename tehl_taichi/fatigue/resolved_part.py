@@ -17,7 +17,7 @@ def part(scene, passage, early, until, layers, deep):
     arrays = {"Fi": top.f / limit, "worst": top.worst.history(centres), **_below(passage, layers, deep)}
     if points:
         worst = worst_of(points)
-        summary["below"] = {"depth_m": worst.depth, **worst.summary(), **local_strength.of_point(passage.strength, worst)}
+        summary["below"] = {"depth_m": worst.depth, **worst.summary(), **local_strength.of_point(passage, worst)}
         arrays["worst_below"] = worst.history(centres)
     return SearchResult(summary, **arrays)
 

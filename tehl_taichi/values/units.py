@@ -48,7 +48,7 @@ def in_unit(where, value, unit):
     >>> round(in_unit("operation.temperature", "343 K", "deg C"), 2)
     69.85
     """
-    match = WITH_UNIT.fullmatch(value) if isinstance(value, str) else None
+    match = WITH_UNIT.fullmatch(value) if isinstance(value, str) and not BARE.fullmatch(value) else None
     if not match:
         return value
     digits, name, radius, of_radius = match.groups()

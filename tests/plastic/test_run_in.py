@@ -1,6 +1,7 @@
 """Run-in over passages made of formulas: rounds of the first passage, the end of it, residual fields, surfaces, refusals."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,12 +11,15 @@ from rolling import Rolling
 import tehl_taichi as tehl
 from tehl_taichi.crack import symmetry_plane
 from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.fatigue import local_strength
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.residual_field import ResidualField
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
 from tehl_taichi.plastic import elastic_loads, run_in, run_in_numbers, steel_body
 from tehl_taichi.plastic.layers import Layers
 from tehl_taichi.plastic.surface_change import SurfaceChange
+from tehl_taichi.runs.summary import summary_rows
+from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.store import run_in_file
 from tehl_taichi.store.integrity import CHECKPOINTS
 
@@ -184,6 +188,22 @@ def test_histories_hold_the_residual_field_of_their_reader():
         found = [p.history(rows, p.stresses(depth), depth=depth) if depth else at_the_surface(p)(rows) for p in (plain, left)]
         added = (found[1] - found[0]).reshape(plain.x.size, 2, -1, 6)
         assert_allclose(added, np.broadcast_to(wanted[:, rows, one, None], added.shape), atol=1e3)
+
+
+@pytest.mark.parametrize("table", ["", "case-hardened"])
+def test_the_critical_point_below_says_the_residual_stress_that_it_has(table):
+    """The constant one and that of run-in."""
+    scene = GEAR.replace(**{"fatigue.residual_xx": -1e8, "fatigue.table": table})
+    left = field(np.linspace(-1e-4, 1e-4, 9), np.linspace(0, 1e-4, 5))
+    strength, point = Strength(scene.fatigue, scene.surfaces[0]), SimpleNamespace(x=1e-5, y=3e-5, depth=4e-6, local=None)
+    point.local = strength.at(point.depth)
+    bare, found = (local_strength.of_point(SimpleNamespace(strength=strength, left=one), point) for one in (None, left))
+    before = bare.get("residual_xx_Pa", -1e8)
+    assert found["residual_xx_Pa"] - before == pytest.approx(1e12 * (4e-6 + 1e-6 + 6e-6))
+    assert found["residual_yy_Pa"] == pytest.approx(2e12 * (4e-6 + 1e-6 + 6e-6))
+    assert bool(bare) == bool(table) == ("sigma_eF_Pa" in found)
+    rows = dict(row.text_pair for row in summary_rows._local_rows(found))
+    assert rows["residual stress along x / y"].startswith(f"{found['residual_xx_Pa'] / 1e6:.4g} / 22")
 
 
 def test_a_crack_has_the_residual_field_too():

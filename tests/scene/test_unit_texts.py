@@ -137,3 +137,10 @@ def test_a_speed_beside_a_moes_pair_is_compared_as_a_number(tmp_path):
     (tmp_path / "s.toml").write_text(text.format(2 * u_m * 1e3))
     with pytest.raises(SceneError, match="contradict each other"):
         scene_file.load(tmp_path / "s.toml")
+
+
+@pytest.mark.parametrize("text", ["2e9", "20", " 1e-3 ", "-4"])
+def test_text_of_a_number_alone_is_no_number_with_a_unit(text):
+    """An exponent was taken for a unit."""
+    with pytest.raises(SceneError, match="is not a number; allowed"):
+        tehl.scene("gear").replace(**{"bodies.a.yield_stress": text})

@@ -357,11 +357,13 @@ def _constants_row(f):
 
 
 def _local_rows(deep):
-    """Rows of the strength table at the depth of the worst point; none without a table."""
-    if "sigma_eF_Pa" not in deep:
+    """Rows of the strength table at the depth of the worst point, and of the residual stress there; none without a table and
+    run-in."""
+    if "residual_xx_Pa" not in deep:
         return []
     stress = " / ".join(f"{deep[f'residual_{axis}_Pa'] / 1e6:.4g}" for axis in ("xx", "yy"))
-    return [_constants_row(deep), SummaryRow("residual stress along x / y", f"{stress} MPa")]
+    return [*([_constants_row(deep)] if "sigma_eF_Pa" in deep else []),
+            SummaryRow("residual stress along x / y", f"{stress} MPa")]
 
 
 def contact_share(t, key=CONTACT):
