@@ -8,6 +8,7 @@ from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures.line_figures import ALONG, SURFACES, carrier
 from tehl_taichi.view.figures.moments import WINDOW, Moments
 from tehl_taichi.view.figures.palette import GREY
+from tehl_taichi.view.zoom_window import EXTREMES, ZoomWindow
 
 MOMENTS, COLUMNS = 200, 400  # kept, at most: what a screen shows
 DASHES = dict(zip((name for name, *_ in SURFACES), ("solid", "dash", "dot")))
@@ -128,12 +129,14 @@ def histories(store):
     """Extremes and friction over the position of the feature; None without a passage."""
     if store.steps < 3:
         return None
-    x = store.scalar("feature_x")[1:] / Scales.of(store.scene).a
+    x, window = store.scalar("feature_x")[1:] / Scales.of(store.scene).a, ZoomWindow.of(store)
     panels: list[tuple] = []
     for title, factor, names in HISTORIES:
         found = {name: text for name, text in names.items() if name in store.series and np.ptp(store.scalar(name)[1:]) > 0}
         lines = [line(x, store.scalar(name)[1:] * factor, text, colour(n + bool(text)), len(panels) + 1, in_legend=bool(text))
                  for n, (name, text) in enumerate(found.items())]
+        lines += [line(x[window.entries - 1], window.extremes(name) * factor, "zoom window", colour(4), len(panels) + 1,
+                       in_legend=not panels) for name in found if window and name in EXTREMES]
         if lines:
             panels.append((title, lines, {}))
     caption = f"One value per time step; the contact lies between −1 and 1.{_carries(store)}"

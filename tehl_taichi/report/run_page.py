@@ -14,6 +14,7 @@ from tehl_taichi.report import (
     scene_text,
     surface_plots,
     verdict,
+    zoom_plots,
 )
 from tehl_taichi.report.document import Page, PageBlock, Section, drawn, facts, sentences
 from tehl_taichi.report.searches import searches
@@ -37,7 +38,7 @@ def page(store, result=None):
     about = f"{store.scene.name}: a run of tehl_taichi {text(store.attrs, 'version')}"
     sections = (scene_section(store.scene, text(store.attrs, "scene_toml", "")),
                 *surface_plots.section(store.scene, store.summary), *run_in_plots.section(store), *_film(store),
-                *_fatigue(store, result), *crack_plots.section(store), *_made(store))
+                *zoom_plots.section(store), *_fatigue(store, result), *crack_plots.section(store), *_made(store))
     answer = dataclasses.replace(verdict.of(store), known_before=tuple(store.scene.warnings()))
     return Page(f"{store.scene.name}: report", about, answer, sections)
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.view.figures import palette
+from tehl_taichi.view.figures import palette, zoom_maps
 from tehl_taichi.view.figures.line_figures import SURFACES, carrier
 from tehl_taichi.view.figures.map_panels import panels
 from tehl_taichi.view.figures.moments import INSIDE
@@ -19,7 +19,8 @@ def maps(page, moments):
     low, top = film_ends(moments, f["film"])
     film = shown.draw(1, f["film"] * 1e6, "film", cmap=palette.FILM, vmin=low * 1e6, vmax=top * 1e6)
     shown.bar(film, slice(1, 2), "µm")
-    page.title(shown.figure, f"{moments.store.scene.name}: pressure and film, {moments.peak(n)}")
+    window = "; dashed: zoom window" * zoom_maps.outline(shown, moments, n)
+    page.title(shown.figure, f"{moments.store.scene.name}: pressure and film, {moments.peak(n)}{window}")
     return shown.figure
 
 

@@ -7,6 +7,8 @@ import numpy as np
 from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.line_figures import ALONG, SURFACES
 from tehl_taichi.view.figures.map_panels import mirrored
+from tehl_taichi.view.figures.zoom_lines import THICK
+from tehl_taichi.view.zoom_window import ZoomWindow
 
 # maps: field, factor, label, colours
 SHOWN = {"film": ("film", 1e6, "film (µm)", palette.FILM), "pressure": ("pressure", 1e-9, "pressure (GPa)", palette.PRESSURE),
@@ -28,7 +30,7 @@ class Frames:
 
     def __init__(self, page, moments, entries, shown):
         self.page, self.moments, self.store, self.entries, self.shown = page, moments, moments.store, entries, shown
-        cold = self.store.scene.isothermal
+        cold, self.finer = self.store.scene.isothermal, ZoomWindow.of(self.store)
         self.panels = {name: panel for name, panel in PANELS.items() if not (cold and name == "temperature")}
         self.fields = [field for _, _, fields in self.panels.values() for field in fields]
         self.figure, self.axes = self._laid_out()
@@ -36,6 +38,7 @@ class Frames:
         self.lines = [line for name in self.panels for line in self._lines(name)]
         self.places = [self.axes[name].axvline(0.0, color=palette.GREY, ls=":", animated=True) for name in self.panels]
         self.map = self._map() if shown else None
+        self.window = self.finer and FrameWindow(self, self.finer)
         self._freeze()
 
     def _laid_out(self):
@@ -56,8 +59,10 @@ class Frames:
         """({field: least}, {field: largest}) of all entries; of the film as much as there is in the contact."""
         ends: dict[str, list[float]] = {name: [] for name in self.fields}
         for n in self.entries:
+            finer = self.finer.fields(n) if self.finer and n in self.finer else {}
             for name, values in self.store.fields(n, self.fields).items():
-                ends[name] += [float(values.min()), float(values.max())]
+                parts = [values, finer[name]] if name in finer else [values]
+                ends[name] += [float(of(part)) for part in parts for of in (np.min, np.max)]
         top = {name: max(values) for name, values in ends.items()} | {"film": self.moments.film_top(self.entries)}
         return {name: min(values) for name, values in ends.items()}, top
 
@@ -116,6 +121,8 @@ class Frames:
         if self.map:
             image, field, factor = self.map
             self._draw(image, data=mirrored(self.store.y, f[field] * factor)[1].T)
+        if self.window:
+            self.window.draw(n)
         self.title.set_text(self._says(n))
         self.figure.draw_artist(self.title)
         return np.array(self.canvas.buffer_rgba())[..., :3]
@@ -123,3 +130,40 @@ class Frames:
     def _draw(self, artist, **changed):
         artist.set(**changed)
         artist.axes.draw_artist(artist)
+
+
+class FrameWindow:
+    """The zoom window of a run in its frames: thick lines over those of the run, its part of the map finer."""
+
+    def __init__(self, frames, window):
+        self.frames, self.window = frames, window
+        self.row = window.row(frames.store.y[frames.moments.line])
+        self.lines = [(self._like(line), field, factor) for line, field, factor in frames.lines if field in window.names]
+        self.patch = self._patch() if frames.map and frames.map[1] in window.names else None
+
+    def draw(self, n):
+        """Entry n of the run, where it has a window."""
+        if n not in self.window:
+            return
+        x, found = self.window.columns(n) / self.frames.moments.a, self.window.fields(n)
+        for line, field, factor in self.lines if self.row is not None else []:
+            self.frames._draw(line, data=(x, found[field][:, self.row] * factor))
+        if self.patch:
+            _, field, factor = self.frames.map
+            y, values = mirrored(self.window.y / self.frames.moments.a, found[field] * factor)
+            self.frames._draw(self.patch, data=values.T, extent=(x[0], x[-1], y[0], y[-1]))
+            self._restore_ends()
+
+    def _like(self, line):
+        return line.axes.plot([], [], line.get_linestyle(), color=line.get_color(), lw=THICK, animated=True)[0]
+
+    def _patch(self):
+        image, ax = self.frames.map[0], self.frames.axes["map"]
+        self.ends = ax.get_xlim(), ax.get_ylim()
+        patch = ax.imshow(np.zeros((2, 2)), origin="lower", interpolation="bilinear", cmap=image.get_cmap(), animated=True,
+                          norm=image.norm)
+        self._restore_ends()
+        return patch
+
+    def _restore_ends(self):
+        self.frames.axes["map"].set(xlim=self.ends[0], ylim=self.ends[1])

@@ -14,6 +14,7 @@ from tehl_taichi.view.figures import (
     run_in_figure,
     search_data,
     surface_figure,
+    zoom_maps,
 )
 from tehl_taichi.view.figures.figure_style import FigureStyle
 from tehl_taichi.view.figures.moments import Moments
@@ -55,6 +56,7 @@ def _of_the_film(store):
     has = {"surface": (surface_figure.surface, store.scene.transient),
            "centreline": (line_figures.centreline, True), "centreline_y": (across_figure.centreline_y, wide),
            "maps": (field_maps.maps, wide),
+           "zoom": (zoom_maps.zoom, wide and store.map("zoom_entry") is not None),
            "temperature": (line_figures.temperature, warm), "temperature_maps": (field_maps.temperature_maps, warm and wide),
            "profiles": (line_figures.profiles, "temperature" in store.stored),
            "run_in": (run_in_figure.run_in, bool(store.scene.runs_in and store.finished and store.run_in.bodies))}

@@ -1,0 +1,63 @@
+"""The zoom window of a run at its largest pressure: along the row through the feature on both grids, and maps."""
+
+import numpy as np
+
+from tehl_taichi.report.document import Section, drawn
+from tehl_taichi.report.passage_plots import FIELDS, film_top
+from tehl_taichi.report.plots import colour, field_map, line, stacked
+from tehl_taichi.view.figures.line_figures import ALONG
+from tehl_taichi.view.figures.map_panels import mirrored
+from tehl_taichi.view.figures.moments import Moments
+from tehl_taichi.view.figures.palette import GREY
+from tehl_taichi.view.figures.zoom_maps import ROOM, SHOWN
+from tehl_taichi.view.zoom_window import ZoomWindow
+
+
+def section(store):
+    """The section, none of a run without a window."""
+    window = ZoomWindow.of(store)
+    if window is None or not window.entries.size:
+        return ()
+    lines = _lines(store, window)
+    return (Section("Zoom window", tuple(drawn(*row) for row in ((lines,) if lines else (), _maps(store, window)) if row)),)
+
+
+def _lines(store, window):
+    """Pressure, film and temperature along the row of the lines; None where the window does not reach it."""
+    moments, n = Moments(store), window.worst
+    if (row := window.row(store.y[moments.line])) is None:
+        return None
+    fine, (low, high) = window.fields(n), (window.columns(n)[0], window.columns(n)[-1])
+    near = (store.x >= low) & (store.x <= high)
+    panels = []
+    for title, factor, names in FIELDS:
+        if (name := next(iter(names))) in fine:
+            both = ((store.x[near], store.fields(n, (name,))[name][near, moments.line], "grid of the run", GREY),
+                    (window.columns(n), fine[name][:, row], f"window, cells {store.scene.zoom.factor} times finer", colour(0)))
+            panels.append((title, [line(x / moments.a, values * factor, text, hue, len(panels) + 1, in_legend=not panels)
+                                   for x, values, text, hue in both], _ends(store, name)))
+    along = f"{moments.along[0].upper()}{moments.along[1:]}"
+    return stacked("zoom-lines", f"{along}, {moments.says(n)}: the largest pressure of the window.", ALONG, panels)
+
+
+def _ends(store, name):
+    """Keys of an axis: the film without the gap behind the contact."""
+    return {"range": [0.0, film_top(store) * 1e6]} if name == "film" else {}
+
+
+def _maps(store, window):
+    """Pressure and film; none where nothing varies across."""
+    if window.y.size == 1:
+        return ()
+    moments, n = Moments(store), window.worst
+    x, found = window.columns(n) / moments.a, window.fields(n)
+    return tuple(_map(moments, x, window.y, name, found[name]) for name in ("pressure", "film"))
+
+
+def _map(moments, x, rows, name, values):
+    title, factor, unit, colours = SHOWN[name]
+    y, full = mirrored(rows / moments.a, values * factor)
+    top = ROOM * float(np.median(full)) if name == "film" else float(full.max())
+    over = f", thicker than {top:.3g} µm in the last colour" * bool(full.max() > top)
+    return field_map(f"zoom-{name}", f"{title.capitalize()} in the window{over}.", x, y, full, colours, unit, ALONG, "y / a",
+                     zmin=float(full.min()), zmax=top)
