@@ -29,7 +29,7 @@ def _lines(store, window):
         return None
     fine, (low, high) = window.fields(n), (window.columns(n)[0], window.columns(n)[-1])
     near = (store.x >= low) & (store.x <= high)
-    panels = []
+    panels: list[tuple] = []
     for title, factor, names in FIELDS:
         if (name := next(iter(names))) in fine:
             both = ((store.x[near], store.fields(n, (name,))[name][near, moments.line], "grid of the run", GREY),
