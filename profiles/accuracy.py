@@ -7,6 +7,7 @@ import numpy as np
 from tehl_taichi.profiles.speed import circular
 
 from tehl_taichi.engine.taichi_patches.prebound import binding_seconds
+from tehl_taichi.fatigue.assessment import Snapshots
 from tehl_taichi.march.accuracy.error_bars import observed_order
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.grid_for_error import columns_per_width
@@ -16,6 +17,9 @@ TARGETS = (0.05, 0.01, 0.001)
 COLUMNS = {"steady line": (64, 128, 256, 512, 1024), "steady circle": (64, 128, 256),
            "passage": (64, 128, 256, 512), "thermal passage": (64, 128, 256, 512)}
 QUICK = {"steady line": (64, 128, 256), "steady circle": (32, 64, 128), "passage": (32, 64, 128)}
+# (columns, factor of a window that rides with the feature over the whole passage) of a family
+WINDOWS = {"passage": ((64, 4), (128, 4)), "thermal passage": ((64, 4), (128, 4))}
+QUICK_WINDOWS = {"passage": ((64, 2),)}
 QUANTITIES = ("h_c_m", "h_min_m", "p_max_Pa", "film_max_C", "Fi_max")
 # of a thermal passage on one grid, against REFERENCE. Not in it: the time step. Steps of whole cells carry the film nearly from
 # node to node; shorter ones interpolate it more often, which costs film where 128 columns hardly resolve it (256: 0.5 %)
@@ -27,6 +31,7 @@ SETTINGS = {"as it is": {}, "half the time step": {"time.courant": 0.5}, "one la
             "Krylov 0.3": {"numerics.krylov_tolerance": 0.3}, "Krylov 1e-3": {"numerics.krylov_tolerance": 1e-3},
             "5 nodes in z": {"thermal.nodes": 5}, "7 nodes in z": {"thermal.nodes": 7}, "13 nodes in z": {"thermal.nodes": 13}}
 AGAIN, COMPILED = 20.0, 0.05  # s; part of the time
+OF_A = {"fatigue.surfaces": "a"}
 IN_DOUBLE = "linear solves in f64"  # in a process of its own
 SETTINGS_COLUMNS, QUICK_SETTINGS = (128, 32), 2  # (in full, quick); so many of the settings
 
@@ -40,7 +45,11 @@ def run(quick=False, progress=None):
         for nx in columns:
             say(f"{family}: {nx} columns")
             found.append((nx, *timed(solve, family, nx)))
-        rows += judged(family, found)
+        windows = []
+        for nx, factor in (QUICK_WINDOWS if quick else WINDOWS).get(family, ()):
+            say(f"{family}: {nx} columns, zoom {factor}")
+            windows.append((nx, factor, *timed(zoomed_values, scene_of(family, nx), factor)))
+        rows += judged(family, found, windows)
     return [*rows, *settings(SETTINGS_COLUMNS[quick], list(SETTINGS)[: QUICK_SETTINGS if quick else None], say)]
 
 
@@ -90,15 +99,40 @@ def solve(family, nx):
 
 
 def passage_values(description):
-    """{quantity: value} with the feature at x = 0, Fi over the whole passage."""
+    """{quantity: value} with the feature at x = 0, Fi of body a over the whole passage."""
     from tehl_taichi.fatigue import assessment
     from tehl_taichi.march.passage import march
 
-    shots = list(march(description))
-    at = np.array([shot.feature_x for shot in shots[1:]]) / Scales.of(description).a
-    middle = {key: float(np.interp(0.0, at, [shot.scalars[key] for shot in shots[1:]]))
-              for key in ("h_min_m", "p_max_Pa", "film_max_C") if key in shots[0].scalars}
-    return {**middle, "Fi_max": assessment.run(description.replace(**{"fatigue.surfaces": "a"}), shots).summary["Fi_max"]}
+    shots = Shots(march(description))
+    return _of_passage(description, shots, assessment.run(description.replace(**OF_A), shots))
+
+
+def zoomed_values(description, factor):
+    """The same of a run with a window."""
+    from tehl_taichi.fatigue import assessment
+    from tehl_taichi.march.passage import march
+    from tehl_taichi.march.zoom.zoomed_passage import passages
+    from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
+
+    description = description.replace(**{"zoom.factor": factor, "zoom.from_x": -np.inf})
+    shots = Shots(march(description))
+    zoomed = ZoomedReader(shots, passages(description, shots, [factor])[0], description.symmetric)
+    return _of_passage(description, zoomed, assessment.run(description.replace(**OF_A), zoomed, alone=False))
+
+
+class Shots(Snapshots):
+    """Snapshots in memory with their numbers."""
+
+    def scalar(self, name):
+        """Values of a number, one per entry."""
+        return np.array([one.scalars[name] for one in self.items])
+
+
+def _of_passage(description, reader, searched):
+    at = np.array([reader.feature_x(n) for n in range(1, len(reader))]) / Scales.of(description).a
+    heat = () if description.isothermal else ("film_max_C",)
+    middle = {key: float(np.interp(0.0, at, reader.scalar(key)[1:])) for key in ("h_min_m", "p_max_Pa", *heat)}
+    return {**middle, "Fi_max": searched.summary["Fi_max"]}
 
 
 def _numbers(description):
@@ -108,14 +142,18 @@ def _numbers(description):
     return {key: scalars[key] for key in ("h_c_m", "h_min_m", "p_max_Pa")}
 
 
-def judged(family, found):
-    """Rows of one family; found: (columns, seconds, values) of each grid, twice as fine each time."""
+def judged(family, found, windows=()):
+    """Rows of one family; found: (columns, seconds, values) of each grid, twice as fine each time; windows: (columns, factor,
+    seconds, values) of runs with a window."""
     rows = []
     for quantity in [key for key in QUANTITIES if key in found[0][2]]:
         values = [values[quantity] for _, _, values in found]
         limit, order = extrapolated(values)
-        rows += marked([{"family": family, "columns": nx, "seconds": seconds, "quantity": quantity, "value": value,
-                         "error": abs(value / limit - 1), "order": order} for (nx, seconds, _), value in zip(found, values)])
+        runs = [({"columns": nx}, seconds, value) for (nx, seconds, _), value in zip(found, values)]
+        runs += [({"columns": nx, "setting": f"{nx} zoom {factor}"}, seconds, own[quantity])
+                 for nx, factor, seconds, own in windows]
+        rows += marked([{"family": family, **which, "seconds": seconds, "quantity": quantity, "value": value,
+                         "error": abs(value / limit - 1), "order": order} for which, seconds, value in runs])
     return rows
 
 

@@ -136,7 +136,7 @@ def parted(text):
     return head, old, tail
 
 
-@pytest.mark.parametrize("name", ["accuracy", "coverage", "stability", "speed", "scaling", "profile", "verdict"])
+@pytest.mark.parametrize("name", ["accuracy", "coverage", "stability", "speed", "scaling", "profile", "verdict", "zoom"])
 def test_the_page_has_a_place_for_every_suite_that_writes_one(name, monkeypatch):
     monkeypatch.chdir(ROOT)
     bench_page.check(name)

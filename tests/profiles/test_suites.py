@@ -80,6 +80,24 @@ def test_orders_and_limits():
     assert accuracy.enough(rows) == [("steady line", "h_c_m", pytest.approx(2.0), [128, 256, None])]
 
 
+def test_runs_with_a_window_are_held_against_the_limit_of_the_grids():
+    found = [(nx, 0.1 * nx, {"Fi_max": 1.0 + 640.0 / nx**2}) for nx in (64, 128, 256)]
+    rows = accuracy.judged("passage", found, [(64, 4, 9.0, {"Fi_max": 1.0 - 640.0 / 256**2})])
+    alone = accuracy.judged("passage", found)
+    window, = (row for row in rows if "setting" in row)
+    assert window["setting"] == "64 zoom 4" and window["error"] == pytest.approx(alone[2]["error"]) and window["seconds"] == 9.0
+    assert [row["front"] for row in rows] == [1, 0, 0, 1]  # as exact as the finest grid, and faster
+    assert accuracy.enough(rows) == accuracy.enough(alone) and accuracy.grid_errors(rows) == accuracy.grid_errors(alone)
+
+
+@pytest.mark.slow
+def test_a_window_on_a_coarse_grid_gives_what_a_fine_grid_does(taichi_cpu):
+    coarse, fine = (accuracy.passage_values(accuracy.scene_of("passage", nx)) for nx in (64, 256))
+    window = accuracy.zoomed_values(accuracy.scene_of("passage", 64), 4)
+    for quantity, within in (("h_min_m", 0.01), ("p_max_Pa", 5e-4), ("Fi_max", 0.01)):
+        assert abs(window[quantity] / fine[quantity] - 1) < within < abs(coarse[quantity] / fine[quantity] - 1), quantity
+
+
 def test_the_front_of_error_against_run_time():
     rows = [{"seconds": s, "error": e} for s, e in ((1, 0.1), (2, 0.2), (3, 0.05), (4, 0.05), (0.5, 0.3))]
     assert [row["front"] for row in accuracy.marked(rows)] == [1, 0, 1, 0, 1]
