@@ -108,7 +108,7 @@ def passage_values(description):
 
 
 def zoomed_values(description, factor):
-    """The same of a run with a window."""
+    """Values as of :func:`passage_values`, of a run with a window."""
     from tehl_taichi.fatigue import assessment
     from tehl_taichi.march.passage import march
     from tehl_taichi.march.zoom.zoomed_passage import passages
