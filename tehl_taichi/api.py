@@ -208,9 +208,9 @@ def zoom(path: Name, factor: int | str = 4, *, threads: int | None = None, progr
     >>> run.summary["zoom"]["factor"], run["p_max"].value > run.summary["zoom"]["base"]["p_max_Pa"]
     (2, True)
     """
-    from tehl_taichi.runs import single_run
+    from tehl_taichi.runs import zoom_store
 
-    return single_run.zoom(path, factor, threads=threads, progress=progress)
+    return zoom_store.zoom(path, factor, threads=threads, progress=progress)
 
 
 def open(path: Name) -> "Run | Study | Flank | Bearing | Cam":

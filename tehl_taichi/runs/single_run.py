@@ -7,7 +7,7 @@ import time
 from os import PathLike
 from pathlib import Path
 
-from tehl_taichi.errors import SceneError, StoreError, interrupt
+from tehl_taichi.errors import StoreError, interrupt
 from tehl_taichi.fatigue.pressure_alone import WITHOUT, searched, why_none
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress
@@ -16,7 +16,6 @@ from tehl_taichi.scene import Scene
 from tehl_taichi.store.load_scene import find
 from tehl_taichi.values.coded_warning import texts
 from tehl_taichi.values.path_arguments import folder_of, path_of
-from tehl_taichi.values.quantity import AUTO
 
 
 def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, force: bool = False, threads: int | None = None,
@@ -75,42 +74,7 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     if rest is None:
         return before
     runtime.check(threads=threads)
-    return _continue(path, rest, threads, began, progress)
-
-
-def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = None, progress: Progress | None = None) -> Run:
-    """As :func:`tehl_taichi.zoom`."""
-    if factor == AUTO:
-        return _zoom_as_needed(path, threads, progress or Progress())
-    began = time.perf_counter()
-    from tehl_taichi.engine import runtime
-
-    before, progress = open(path), progress or Progress()
-    if not before.finished:
-        raise StoreError(f"{before.path} is not finished: use tehl resume {before.path} first")
-    scene = before.scene.replace(**{"zoom.factor": factor})
-    if factor and not scene.zooms:
-        raise SceneError(f"{before.path}: no feature passes in this run, so there is nothing to zoom in on")
-    if scene == before.scene:
-        return before
-    runtime.check(threads=threads)
-    return _continue(before.path, scene, threads, began, progress)
-
-
-def _zoom_as_needed(path, threads, progress):
-    """The run with the first window that settles its largest pressure, or the finest; as it is where it needs none."""
-    from tehl_taichi.runs import zoom_need
-
-    done = open(path)
-    for factor in zoom_need.factors(done):
-        progress.say(f"{zoom_need.reason(done)}: a window of factor {factor}")
-        done = zoom(path, factor, threads=threads, progress=progress)
-        if zoom_need.settled(done):
-            break
-    else:
-        if not done.scene.zooms:
-            progress.say("this grid resolves the passage: no window is needed")
-    return done
+    return continued(path, rest, threads, began, progress)
 
 
 def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:
@@ -136,7 +100,7 @@ def check_version(path, run):
                          "or remove it")
 
 
-def _continue(path, scene, threads, began, progress):
+def continued(path, scene, threads, began, progress):
     """Continue with the store at `path` to the end of `scene`."""
     from tehl_taichi.engine import runtime
     from tehl_taichi.store.store import Store
@@ -225,35 +189,13 @@ def _finish(saved, state, steady, clock, progress):
         notify = functools.partial(progress.stage, ERRORS)
         passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain, steel.get("run_in"))
         if saved.scene.zooms and len(saved) > 2:
-            passage, found, arrays = _zoom(saved, passage, alone if sure else None, domain, steady, progress)
+            from tehl_taichi.runs import zoomed_run
+
+            passage, found, arrays = zoomed_run.refined(saved, passage, alone if sure else None, domain, progress)
+            _add_contact_alone(found, steady["steady_contact_alone"])
         arrays = _with_steel(run_in, found, arrays) if run_in else arrays
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage, **steel}, found), arrays)
     return Run(saved)
-
-
-def _kept_states(scene, state):
-    """KeptStates of a march from this state; None where no window follows it again for its temperatures, or run-in repeats
-    it."""
-    if not scene.zooms or scene.isothermal or scene.runs_in:
-        return None
-    from tehl_taichi.march.zoom.kept_states import KeptStates
-
-    kept = KeptStates()
-    kept.add(state)
-    return kept
-
-
-def _zoom(saved, passage, alone, domain, steady, progress):
-    """(error bars and numbers, {surface: summary}, arrays) of a run with its fine window; passage, alone: bars and SearchResult
-    (None: no index) of the run alone."""
-    from tehl_taichi.runs import zoomed_run
-
-    windows = zoomed_run.levels(saved, progress)
-    found, arrays = zoomed_run.search(saved, windows, alone, progress) if alone else ({}, {})
-    _add_contact_alone(found, steady["steady_contact_alone"])
-    passage = zoomed_run.corrected(saved, windows, alone.summaries if alone else {}, passage, domain)
-    numbers = zoomed_run.summary(saved, windows, passage, found)
-    return {**passage, "zoom": numbers}, found, {**arrays, **zoomed_run.arrays(windows)}
 
 
 class _Clock:
@@ -335,6 +277,16 @@ def _fatigue(saved, until, progress):
         return None
     progress.say("stresses and Findley search")
     return assessed(saved, saved.scene, progress, until)
+
+
+def _kept_states(scene, state):
+    """KeptStates of a march from this state; None where no window follows it again for its temperatures, or run-in repeats
+    it."""
+    if not scene.zooms or scene.isothermal or scene.runs_in:
+        return None
+    from tehl_taichi.march.zoom.kept_states import KeptStates
+
+    return KeptStates(state)
 
 
 def _add_contact_alone(found, alone):

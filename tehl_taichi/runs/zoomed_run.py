@@ -38,6 +38,16 @@ class ZoomLevel:
     searches: dict = field(default_factory=dict)
 
 
+def refined(saved, passage, alone, domain, progress):
+    """(error bars and numbers, {surface: summary}, arrays) of a run with its fine window; passage, alone: bars and SearchResult
+    (None: no index) of the run alone."""
+    windows = levels(saved, progress)
+    found, arrays_found = search(saved, windows, alone, progress) if alone else ({}, {})
+    both = corrected(saved, windows, alone.summaries if alone else {}, passage, domain)
+    numbers = summary(saved, windows, both, found)
+    return {**both, "zoom": numbers}, found, {**arrays_found, **arrays(windows)}
+
+
 def levels(saved, progress):
     """The ZoomLevels of the run in the store `saved`, coarsest first."""
     scene = saved.scene

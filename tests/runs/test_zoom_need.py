@@ -5,7 +5,7 @@ import types
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.runs import single_run, zoom_need
+from tehl_taichi.runs import single_run, zoom_need, zoom_store
 from tehl_taichi.runs.progress import Progress
 
 SCENE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid.nx": 256})
@@ -48,14 +48,14 @@ class Said(Progress):
 
 @pytest.mark.parametrize("errors, tried", [({4: 1e7}, [4]), ({4: None, 8: 1e7}, [4, 8]), ({4: None, 8: None}, [4, 8])])
 def test_factors_are_tried_until_the_pressure_is_known(monkeypatch, errors, tried):
-    done, progress, real = [], Said(), single_run.zoom
+    done, progress, real = [], Said(), zoom_store.zoom
 
     def zoom(path, factor, **given):
         done.append(factor)
         return finished(SCENE.replace(**{"zoom.factor": factor}), 0.8, errors[factor], monkeypatch)
 
     monkeypatch.setattr(single_run, "open", lambda path: finished(SCENE, 0.8, None, monkeypatch), raising=False)
-    monkeypatch.setattr(single_run, "zoom", zoom)
+    monkeypatch.setattr(zoom_store, "zoom", zoom)
     run = real("a.zarr", "auto", progress=progress)
     assert done == tried and run.scene.zoom.factor == tried[-1] and len(progress.texts) == len(tried)
 
@@ -63,5 +63,5 @@ def test_factors_are_tried_until_the_pressure_is_known(monkeypatch, errors, trie
 def test_a_run_without_need_stays_as_it_is(monkeypatch):
     progress, before = Said(), finished(SCENE, error=1e7, monkeypatch=monkeypatch)
     monkeypatch.setattr(single_run, "open", lambda path: before, raising=False)
-    assert single_run.zoom("a.zarr", "auto", progress=progress) is before
+    assert zoom_store.zoom("a.zarr", "auto", progress=progress) is before
     assert progress.texts == ["this grid resolves the passage: no window is needed"]

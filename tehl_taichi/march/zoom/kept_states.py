@@ -6,8 +6,8 @@ MOST = 8  # of them; a thermal one has 11 MB at 257x65x9
 class KeptStates:
     """States of :func:`tehl_taichi.march.passage.march` in rising order; the first one stays, the others thin out."""
 
-    def __init__(self):
-        self.states = []
+    def __init__(self, first):
+        self.states = [first]
 
     def add(self, state):
         """One more."""
@@ -18,7 +18,7 @@ class KeptStates:
     @property
     def start(self):
         """The state before the first step; None where the march was not followed from there."""
-        return self.states[0] if self.states and int(self.states[0]["step"]) == 0 else None
+        return self.states[0] if int(self.states[0]["step"]) == 0 else None
 
     def before(self, step):
         """The newest state at or before a step, None where there is none."""

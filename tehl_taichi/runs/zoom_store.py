@@ -1,0 +1,45 @@
+"""A fine window that is added to a finished run: of a given factor, or as fine as it takes."""
+
+import time
+from os import PathLike
+
+from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.runs import single_run
+from tehl_taichi.runs.progress import Progress
+from tehl_taichi.runs.stored_run import Run
+from tehl_taichi.values.quantity import AUTO
+
+
+def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = None, progress: Progress | None = None) -> Run:
+    """As :func:`tehl_taichi.zoom`."""
+    if factor == AUTO:
+        return _zoom_as_needed(path, threads, progress or Progress())
+    began = time.perf_counter()
+    from tehl_taichi.engine import runtime
+
+    before, progress = single_run.open(path), progress or Progress()
+    if not before.finished:
+        raise StoreError(f"{before.path} is not finished: use tehl resume {before.path} first")
+    scene = before.scene.replace(**{"zoom.factor": factor})
+    if factor and not scene.zooms:
+        raise SceneError(f"{before.path}: no feature passes in this run, so there is nothing to zoom in on")
+    if scene == before.scene:
+        return before
+    runtime.check(threads=threads)
+    return single_run.continued(before.path, scene, threads, began, progress)
+
+
+def _zoom_as_needed(path, threads, progress):
+    """The run with the first window that settles its largest pressure, or the finest; as it is where it needs none."""
+    from tehl_taichi.runs import zoom_need
+
+    done = single_run.open(path)
+    for factor in zoom_need.factors(done):
+        progress.say(f"{zoom_need.reason(done)}: a window of factor {factor}")
+        done = zoom(path, factor, threads=threads, progress=progress)
+        if zoom_need.settled(done):
+            break
+    else:
+        if not done.scene.zooms:
+            progress.say("this grid resolves the passage: no window is needed")
+    return done
