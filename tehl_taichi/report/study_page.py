@@ -1,15 +1,19 @@
 """The page of a study: its results over the swept keys, the table, what failed."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.run_page import scene_section
-from tehl_taichi.report.study_plots import column, figures
+from tehl_taichi.report.study_plots import figures
 from tehl_taichi.report.verdict import limit_words
 from tehl_taichi.runs.sweep import study_figures
+from tehl_taichi.runs.sweep.study_labels import parted, valued
 from tehl_taichi.runs.sweep.study_table import Study, attributes
 from tehl_taichi.scene.aliases import full_name
+from tehl_taichi.values.digits import with_error
 
 MOST_ROWS = 500
 ROUNDING = 1e-12  # of the largest value: friction in pure rolling
@@ -22,8 +26,26 @@ def of(folder):
     scene, keys = study.plan.scene, ", ".join(study.plan.keys)
     return Page(f"{scene.name}: report of a study", f"{scene.name}: {len(study)} cases over {keys}", _answer(study), (
         Section("Results", (drawn(*figures(study)),)), Section("Cases", (_table(study), _rest(study))),
-        Section("Without a result", (sentences(_failed(study)),)), scene_section(scene, ""),
+        Section("Without a result", (sentences(_failed(study)),)), _scene(study),
         Section("Provenance", (facts(_provenance(study)),))))
+
+
+def _scene(study):
+    """The scene that all cases share, with what they change."""
+    found = scene_section(study.plan.scene, "")
+    return replace(found, parts=(sentences(list(_swept(study)), "The cases change"), *found.parts))
+
+
+def _swept(study):
+    """A sentence on the values of every swept key."""
+    for key in study.plan.keys:
+        numbers, label, words = study_figures.along(study, key, per_case=True)
+        ends = [words[int(which(numbers))] for which in (np.argmin, np.argmax)]
+        several = len(dict.fromkeys(words))
+        if study_figures.numeric(study, key) and several > 2:
+            yield f"{valued(label, ' to '.join(ends))}: {several} values in place of that below."
+        else:
+            yield f"{valued(label, ', '.join(dict.fromkeys(words)))} in place of that below."
 
 
 def _column(study, name):
@@ -57,16 +79,19 @@ def _limits(study):
 def _ranges(study):
     """A sentence on each usual result: its smallest and its largest value, and where they are."""
     for name in study_figures.usual(study):
-        values, label = column(study, name)
+        values, errors, label = study_figures.with_errors(study, name)
         if np.isfinite(values).any():
-            low, top = int(np.nanargmin(values)), int(np.nanargmax(values))
-            yield (f"{label[0].upper()}{label[1:]}: {_cell(values, low)} ({_changes(study, low)}) to {_cell(values, top)} "
-                   f"({_changes(study, top)}).")
+            name, unit = parted(label)
+            low, top = (f"{_cell(values, errors, n)}{f' {unit}' * bool(unit)} ({_changes(study, n)})"
+                        for n in (int(np.nanargmin(values)), int(np.nanargmax(values))))
+            yield f"{name[0].upper()}{name[1:]}: {low} to {top}."
 
 
-def _cell(values, n):
-    """A value with four digits; what is only rounding beside the largest is 0."""
-    return f"{values[n] if abs(values[n]) > ROUNDING * np.nanmax(np.abs(values)) else 0.0:.4g}"
+def _cell(values, errors, n):
+    """A value with its error, four digits without; what is only rounding beside the largest is 0."""
+    if abs(values[n]) <= ROUNDING * np.nanmax(np.abs(values)):
+        return "0"
+    return with_error(values[n], errors[n])
 
 
 def _extreme(study, Fi, text, which):
@@ -84,16 +109,16 @@ def _errors(study):
 
 def _changes(study, n):
     keys = (study_figures.along(study, key, per_case=True) for key in study.plan.keys)
-    return ", ".join(f"{label} {words[n]}" for _, label, words in keys)
+    return ", ".join(valued(label, words[n]) for _, label, words in keys)
 
 
 def _table(study):
     keys = [study_figures.along(study, key, per_case=True) for key in study.plan.keys]
-    columns = [column(study, name) for name in study_figures.usual(study)]
+    columns = [study_figures.with_errors(study, name) for name in study_figures.usual(study)]
     rows = [[str(n), *(words[n] for *_, words in keys), row["status"],
-             *(_cell(values, n) if np.isfinite(values[n]) else "" for values, _ in columns)]
+             *(_cell(values, errors, n) if np.isfinite(values[n]) else "" for values, errors, _ in columns)]
             for n, row in zip(range(MOST_ROWS), study.rows())]
-    return table(("case", *(label for _, label, _ in keys), "status", *(label for _, label in columns)), rows)
+    return table(("case", *(label for _, label, _ in keys), "status", *(label for *_, label in columns)), rows)
 
 
 def _rest(study):

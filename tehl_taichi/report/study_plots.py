@@ -4,9 +4,11 @@ import numpy as np
 
 from tehl_taichi.report.plots import colour, field_map, line, marks, stacked
 from tehl_taichi.runs.sweep.study_figures import along, curve_keys, curve_rows, numeric, usual, with_errors
+from tehl_taichi.runs.sweep.study_labels import parted, valued
 from tehl_taichi.view.figures.palette import RESULT
 
 MOST_LINES = 12
+LONGEST = 30  # letters of the title of an upright axis
 
 
 def figures(study):
@@ -35,8 +37,13 @@ def _lines(study, name):
     shown = np.unique(np.linspace(0, len(rows) - 1, min(len(rows), MOST_LINES)).astype(int))
     traces = [line(x, rows[n], seconds[n], colour(k), in_legend=len(rows) > 1, mode="lines+markers", **_bars(bars[n]))
               for k, n in enumerate(shown)]
-    return stacked(f"{name}-lines", f"{label}, over {x_label}.", x_label, [(label, traces, {})],
+    return stacked(f"{name}-lines", f"{label}, over {x_label}.", x_label, [(_title(label), traces, {})],
                    _ticks(x, words, numeric(study, first)), height=400)
+
+
+def _title(label):
+    """Title of an upright axis: of a label that is longer than a figure on paper is high the unit; the caption has both."""
+    return label if len(label) <= LONGEST or not parted(label)[1] else parted(label)[1]
 
 
 def _bars(errors):
@@ -51,7 +58,7 @@ def _seconds(study, label):
     if len(study.plan.keys) == 1:
         return [label]
     _, second, words = along(study, curve_keys(study)[1])
-    return [f"{second} {word}" for word in words]
+    return [valued(second, word) for word in words]
 
 
 def _map(study, name):
@@ -72,7 +79,7 @@ def _points(study, name, key):
     x, x_label, words = along(study, key, per_case=True)
     dots = marks(x, values, label, colour(0), symbol="circle", showlegend=False, **_bars(errors))
     dots["marker"] |= {"size": 6, "line": {"width": 0}}
-    return stacked(f"{name}-{key}", f"{label} of all cases against {x_label}.", x_label, [(label, [dots], {})],
+    return stacked(f"{name}-{key}", f"{label} of all cases against {x_label}.", x_label, [(_title(label), [dots], {})],
                    _ticks(x, words, numeric(study, key)), height=330)
 
 

@@ -69,3 +69,12 @@ def test_a_kind_of_warning_is_one_sentence():
 
     rows = [row("A", "15 cells"), row("B", "14 cells"), row("C"), row("D", "15 cells"), ("E", 1e9, None)]
     assert place_warnings.of(rows, str) == ["A, D: 15 cells (likewise, with other numbers, at B)"]
+
+
+def test_a_warning_of_all_places_names_none():
+    same = {"warnings": ["oil"], "warning_codes": ["oil"], "warning_data": [{}]}
+    rows = [(n, 1e9, same) for n in range(4)]
+    assert place_warnings.of(rows, str) == ["everywhere: oil"]
+    other = [(4, 1e9, {"warnings": ["oil 2"], "warning_codes": ["oil"], "warning_data": [{}]}), (5, 1e9, None)]
+    assert place_warnings.of([*rows, *other], str) == ["0, 1, 2, 3: oil (likewise, with other numbers, everywhere else)"]
+    assert place_warnings.of(rows[:2], str) == ["0, 1: oil"]

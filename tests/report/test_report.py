@@ -188,11 +188,12 @@ def test_a_study_shows_its_results_and_what_failed(pages):
     seen = pages["study"]
     assert "is above 1 in 1 of 8 cases with a result" in seen.text and "Without a result: 1 of 9 cases" in seen.text
     assert "Fi = 1 is the fatigue limit σ_eF = 400 MPa with κ = 0.3 (findley): example values" in seen.text
-    assert "The largest is Fi = 1.05: slide-to-roll ratio -0.1, feature height (µm) 1.5." in seen.text
-    assert "Case 5 (slide-to-roll ratio 0, feature height (µm) 1.5): not converged: made up" in seen.text
+    assert "The largest is Fi = 1.05: slide-to-roll ratio -0.1, feature height 1.5 µm." in seen.text
+    assert "Case 5 (slide-to-roll ratio 0, feature height 1.5 µm): not converged: made up" in seen.text
     cells = numbers(seen.figures["fatigue_Fi_max-map"]["data"][0])
     assert np.isnan(cells).sum() == 1 and np.nanmax(cells) == pytest.approx(1.05)
     assert len(seen.figures["fatigue_Fi_max-lines"]["data"]) == 3
+    assert "feature height 0.5 to 1.5 µm: 3 values in place of that below" in seen.text
 
 
 def test_curves_of_a_study_are_over_the_key_with_more_values(tmp_path):
@@ -209,7 +210,7 @@ def test_curves_of_a_study_are_over_the_key_with_more_values(tmp_path):
     lines = next(figure for figure in study_plots.figures(found) if figure.name == f"{name}-lines")
     assert [trace["x"].tolist() for trace in lines.traces] == [[0.0, 0.1, 0.2]] * 2
     assert [list(trace["y"]) for trace in lines.traces] == [values[:3].tolist(), values[3:].tolist()]
-    assert [trace["name"] for trace in lines.traces] == ["inlet temperature (°C) 60", "inlet temperature (°C) 80"]
+    assert [trace["name"] for trace in lines.traces] == ["inlet temperature 60 °C", "inlet temperature 80 °C"]
 
 
 def test_a_study_without_an_index_names_the_range_of_its_results(tmp_path):
@@ -219,13 +220,14 @@ def test_a_study_without_an_index_names_the_range_of_its_results(tmp_path):
     swept = plan(scene("mtm"), {"contact.radius_x": [0.01, 0.02]})
     found = sweeping.run(swept, tmp_path / "s.zarr", workers=1, work=position)
     sentences = study_page.of(found.path).answer.sentences
-    assert sentences == ("Steady h_c (mm): 10 (reduced radius along x (mm) 10) to 20 (reduced radius along x (mm) 20).",)
+    assert sentences == ("Steady h_c: 10 mm (reduced radius along x 10 mm) to 20 mm (reduced radius along x 20 mm).",)
 
 
 def test_rounding_beside_the_largest_value_is_no_result():
     from tehl_taichi.report import study_page
 
-    assert study_page._cell(np.array([7e-19, 0.07]), 0) == "0" and study_page._cell(np.array([7e-19, 0.07]), 1) == "0.07"
+    values, errors = np.array([7e-19, 0.07, 0.07]), np.array([np.nan, np.nan, 0.002])
+    assert [study_page._cell(values, errors, n) for n in range(3)] == ["0", "0.07", "0.0700 ± 0.0020"]
 
 
 def test_a_study_over_the_limit_names_its_keys(tmp_path):

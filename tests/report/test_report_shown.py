@@ -135,6 +135,24 @@ def test_paper_is_light_and_holds_every_figure(browser, whole, tmp_path):
     assert (tmp_path / "a.pdf").read_bytes()[:4] == b"%PDF" and browser.complaints() == []
 
 
+def test_a_page_counts_as_loading_until_its_figures_are_drawn(others, tmp_path):
+    """A browser without a screen prints what is there once a page has loaded: figures, not empty frames."""
+    import subprocess
+
+    from browser import CHROMIUM, FLAGS
+
+    sizes = []
+    for number, page in enumerate((others[1], tmp_path / "empty.html")):
+        if number:  # the page without the library that draws
+            text = others[1].read_text()
+            page.write_text(text.replace('id="library"', 'id="lost"'))
+        command = [CHROMIUM, *(flag for flag in FLAGS if "pipe" not in flag), f"--user-data-dir={tmp_path / 'b'}",
+                   f"--print-to-pdf={tmp_path / 'a.pdf'}", page.as_uri()]
+        subprocess.run(command, check=True, capture_output=True, timeout=120)
+        sizes.append((tmp_path / "a.pdf").stat().st_size)
+    assert sizes[0] > 1.2 * sizes[1]
+
+
 PAGE = 1017  # px: height of A4 between its margins
 WIDE = 688   # px: its width
 

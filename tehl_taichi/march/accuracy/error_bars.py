@@ -23,6 +23,7 @@ ALONE = 1.5  # of the only difference there is
 ACCIDENT = 1e-3  # of a number, no extreme: two grids may agree by accident
 BLURRED = 1.5  # of the distance between an extreme over nodes and that of the parabola through them
 HOPELESS = 0.5  # a number that changes by more than this part of itself from grid to grid is not resolved
+NOTHING = 1e-15  # friction in pure rolling, that is rounding on every grid
 WHOLE = Reason("its error may be as large as its value", "value")  # of one that is positive: nothing is known of it but that
 MOVED = 4.0  # cells of the coarser grid that the place of an extreme may move: more is another extreme
 # A number of a peak too narrow for one grid is known from three whose differences halve at least (those of a singular peak grow
@@ -80,6 +81,8 @@ def bar(readings):
         return None, Reason("no coarser grid gives it", "alone")
     before = known[-2]
     if last.positive and last.value == 0 and not last.place:  # a film that carries all here does so on finer grids, too
+        return 0.0, ""
+    if all(abs(reading.value) < NOTHING for reading in known):
         return 0.0, ""
     if last.place and all(abs(a - b) > MOVED * before.cell for a, b in zip(last.place, before.place)):
         return None, Reason("its place differs from that on the next coarser grid", "place")

@@ -95,7 +95,18 @@
     document.documentElement.dataset.ready = "yes";
   };
 
-  start().catch(error => {
+  /* an open document in the page: the page counts as loading until its figures are drawn, so that a browser without a screen
+     does not print it before */
+  const wait = () => {
+    const held = document.createElement("iframe");
+    held.hidden = true;
+    document.body.append(held);
+    held.contentDocument.open();
+    return () => { held.contentDocument.close(); held.remove(); };
+  };
+
+  const loaded = wait();
+  start().finally(loaded).catch(error => {
     const why = window.DecompressionStream ? String(error) : "this browser is older than 2023";
     for (const place of plots()) place.textContent = `The figure cannot be drawn: ${why}.`;
     throw error;

@@ -146,8 +146,18 @@ def tables(rows, of=COLUMNS, places=2):
         if title != CONTACT and found:
             found = [column for column in of[:places] if column in columns] + found
         if found:
-            out[title] = [column.head for column in found], [[column.shown(*row) for column in found] for row in rows]
+            heads, lines = [column.head for column in found], [[column.shown(*row) for column in found] for row in rows]
+            out[_title(title, rows)] = heads, lines
     return out
+
+
+def _title(title, rows):
+    """The title of a table; of steady contacts, which have stresses alone of a passage, another one."""
+    return "stress" if title == PASSAGE and not any(map(_passes, rows)) else title
+
+
+def _passes(row):
+    return any(dig(row[-1], part) for part in ("transient", "fatigue"))
 
 
 def csv_text(rows, of=COLUMNS):

@@ -133,7 +133,7 @@ def column(values):
 def _listed(item, unit):
     found = _range(item)
     if isinstance(found, Span):
-        raise SceneError(f"{item} in a list has no number of values, {FORMS}")
+        raise SceneError(f"{item} in a list has no number of values, {FORMS} (decimals need a point, no comma)")
     if found is not None:
         return found
     bare = unit and not units.split(item)[1]
@@ -178,7 +178,8 @@ def _check_range(text, a, b, count, log):
     if log and not (a > 0 and b > 0):
         raise SceneError(f"{text}: a logarithmic range needs positive ends")
     if count is None and not a < b:
-        raise SceneError(f"{text}: the first end must be smaller than the second")
+        raise SceneError(f"{text}: the first end must be smaller than the second (decimals need a point, no "
+                         "comma)")
     if count is not None and (not 1 <= int(count) <= MOST or (int(count) == 1 and a != b)):
         raise SceneError(f"{text} must have 2 to {MOST} values, {FORMS}")
 

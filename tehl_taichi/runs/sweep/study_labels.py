@@ -39,6 +39,17 @@ def with_unit(text, unit_):
     return f"{text} ({shown})" if shown else text
 
 
+def parted(label):
+    """(name, unit) of a label: 'load', 'N/mm' of 'load (N/mm)'; unit "" without one."""
+    name, bracket, shown = label.removesuffix(")").rpartition(" (")
+    return (name, shown) if bracket and label.endswith(")") else (label, "")
+
+
+def valued(label, word):
+    """'load 3 N/mm' of the label 'load (N/mm)' and a value in words."""
+    return " ".join(filter(None, (parted(label)[0], word, parted(label)[1])))
+
+
 def of_key(scene, key, size):
     """(factor, label) of a key whose values in SI are of about this size."""
     factor, shown = fitting(unit(scene, key), size)

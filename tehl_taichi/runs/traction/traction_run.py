@@ -39,8 +39,8 @@ def traction_plan(scene, srr=SRRS, temperature=None, speed=None, changes=None, l
     for key in swept:
         if KEYS[key] in changes:
             raise SceneError(f"{key} is swept and {KEYS[key]} = {changes[KEYS[key]]!r} sets it: give one of them")
-    check_swept(changes, swept)
     changes |= {KEYS[key]: swept.pop(key)[0] for key in (LOAD, PRESSURE) if key in swept and _is_one(swept[key])}
+    check_swept(changes, swept)
     smooth = dataclasses.replace(scene, features=())
     heat = {"thermal.on": True} if smooth.thermal.on == "auto" else {}
     return plan(smooth.replace(**{**heat, **changes}), swept)

@@ -51,6 +51,12 @@ def test_no_bar_is_narrower_than_what_the_iterations_may_have_left():
     assert readings.hottest(120.0, scene("gear")) == GridReading(120.0, settled=0.1 * scene("gear").thermal.tolerance)
 
 
+def test_rounding_on_every_grid_is_nothing_with_a_bar_of_nothing():
+    """Friction in pure rolling: 1e-18 that changes by 134 % from grid to grid."""
+    assert bar([GridReading(-3e-19), GridReading(2.3e-18)]) == (0.0, "")
+    assert bar([GridReading(0.02), GridReading(0.05)])[0] is None
+
+
 def test_a_number_that_grids_do_not_resolve_has_no_bar():
     def maximum(value, place, doubt=""):
         return GridReading(value, 0.0, (place,), 0.1, doubt)

@@ -60,7 +60,8 @@ def test_a_range_with_units_is_the_range_in_si():
     ("load", "1 mm:5 kN:3", "not units of the same quantity"), ("temperature", "40 C:1 kN:3", "not units of the same"),
     ("load", "0:5kN/m:3:log", "positive ends"), ("load", "1:5kN/m", "load = 1000:5000 has no number of values"),
     ("load", "1:5kN:1", "2 to 100000"), ("srr", "0:0.5:5.5", "whole number"), ("srr", "0:0.5:11:lin", "is no range"),
-    ("srr", "0:0.5:", "is no range"), ("temperature", "40C:80C:3C:log", "is no range"),
+    ("srr", "0:0.5:", "is no range"),
+    ("srr", "0:0,5:11", "decimals need a point"), ("temperature", "40C:80C:3C:log", "is no range"),
 ])
 def test_units_of_a_range_that_do_not_fit(key, text, said):
     with pytest.raises(SceneError, match=said):

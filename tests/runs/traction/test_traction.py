@@ -98,6 +98,7 @@ def test_the_figure_has_error_bars_and_a_logarithmic_axis_for_decades(tmp_path, 
     (dict(temperature="x"), "operation.temperature = 'x' is not a number"),
     (dict(srr=[0.1], changes={"srr": 0.2}), "srr is swept and operation.srr = 0.2 sets it"),
     (dict(srr=[0.1], load="1,2 kN/m", hertz_pressure=1e9), "contradict"),
+    (dict(srr=[0.1], load="1 kN/m", hertz_pressure=1e9), "contact.load = .* and contact.hertz_pressure = .* contradict"),
     (dict(srr=[0.1], load="1,2 kN/m", changes={"hertz_pressure": 1e9}), "contradict"),
     (dict(srr=[0.1, 0.1]), "srr = 0.1 is given twice"), (dict(srr=[]), "srr has no values")])
 def test_wrong_axes_are_refused_before_anything_is_written(tmp_path, options, said):
