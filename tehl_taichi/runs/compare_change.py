@@ -5,9 +5,11 @@ NOT_SEPARATED = "not separated"  # the error bars of both numbers overlap
 
 
 def separated(first, second):
-    """Whether the error bars of two (value, error bar or None) leave a gap; None where neither bar is known."""
+    """Whether the error bars of two (value, error bar or None) leave a gap; None where an unknown bar decides."""
     bars = [error for _, error in (first, second) if error is not None]
-    return abs(second[0] - first[0]) > sum(bars) if bars else None
+    if bars and abs(second[0] - first[0]) <= sum(bars):
+        return False
+    return True if len(bars) == 2 else None
 
 
 def change(first, second, nothing=0.0, unit=""):

@@ -14,7 +14,7 @@ from tehl_taichi.runs.open_results import open as opened
 from tehl_taichi.values.digits import with_error
 from tehl_taichi.values.summary_units import nothing_of, unit_of
 
-UNKNOWN = " (error unknown)"  # behind a change of two numbers without bars
+UNKNOWN = " (error unknown)"  # behind a change of two numbers, one of them at least without a bar
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,7 @@ def test_a_change_is_held_against_error_bars_and_the_size_of_the_quantity(first,
 def test_temperatures_differ_by_kelvins():
     assert change((90.0, 1.0), (93.2, 0.5), unit="degC") == "+3.2 K" and separated((90.0, None), (93.2, None)) is None
     assert change((90.0, 2.0), (93.2, 2.0), unit="degC") == NOT_SEPARATED
+    assert separated((1.320, None), (1.310, 0.007)) is None and separated((1.212, 0.005), (1.210, None)) is False
 
 
 @pytest.fixture
