@@ -69,6 +69,8 @@ def conclusions(
 def verdict(
     out: Path = folder("runs/verdict", "folder of the stores and results (existing stores are reused)"),
     quick: bool = typer.Option(False, "--quick", help="run the default asperity on 64 x 16 cells"),
+    only: Optional[list[str]] = typer.Option(None, help="scene to run, instead of all (repeatable): gear, dent, "
+                                                        "touching-asperity or rough-pair; with --write the other rows stay"),
     as_json: bool = JSON,
     force: bool = FORCE,
     write: bool = typer.Option(False, "--write", help="replace the table in docs/strength.md (of the current folder)"),
@@ -83,14 +85,21 @@ def verdict(
     from tehl_taichi.profiles import measure
     from tehl_taichi.profiles import verdict as suite
 
+    from tehl_taichi.values.checks import choice
+
+    for name in only or ():
+        choice("--only", name, suite.SCENES)
     results = Results(out, "verdict", force, more=("md",), write=write)
-    for rows in suite.run(out, quick, say, workers, threads):  # those so far are kept, whatever comes
+    for rows in suite.run(out, quick, say, workers, threads, only):  # those so far are kept, whatever comes
         measure.save(out, "verdict", measure.result([suite.plain_row(row) for row in rows], note=suite.NOTE))
         results.page(suite.page(rows))
+        if only:
+            results.documented(suite.COLUMNS, suite.texts(rows), keys=2)
     if not as_json:
         list_table("fatigue index by strength", suite.COLUMNS, suite.texts(rows))
     say(suite.NOTE)
-    results.documented(suite.COLUMNS, suite.texts(rows))
+    if not only:
+        results.documented(suite.COLUMNS, suite.texts(rows))
     results.finish([suite.plain_row(row) for row in rows], lambda plt: suite.chart(plt, rows), as_json, note=suite.NOTE)
 
 

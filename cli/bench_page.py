@@ -1,5 +1,6 @@
 """The tables of the pages in docs: a suite replaces its own, between two marks, and nothing else."""
 
+import re
 import shlex
 import sys
 import textwrap
@@ -21,15 +22,32 @@ def check(name):
     _around(name)
 
 
-def write(name, columns, rows):
-    """Replace the table of a suite; rows: texts. Raises StoreError."""
+def write(name, columns, rows, keys=0):
+    """Replace the table of a suite; rows: texts. keys: number of the first cells that name a row, where rows that are not
+    among these stay. Raises StoreError."""
     from tehl_taichi.disk import files
 
     before, after = _around(name)
-    lines = [columns, ["---"] * len(columns), *rows]
-    table = "\n".join(f"| {' | '.join(map(_cell, line))} |" for line in lines)
+    old = _rows(name)[2:] if keys else []
+    lines = [columns, ["---"] * len(columns), *_merged(old, [list(map(_cell, row)) for row in rows], keys)]
+    table = "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    partly = " Other rows are of an earlier command." if len(lines) > len(rows) + 2 else ""
     with files.blamed(of(name)):
-        files.replace(of(name), f"{before}\n{_caption()}\n\n{table}\n{after}".encode())
+        files.replace(of(name), f"{before}\n{_caption(partly)}\n\n{table}\n{after}".encode())
+
+
+def _merged(old, new, keys):
+    """Rows of texts: the old ones with the new ones in their places, further ones behind."""
+    found = {tuple(row[:keys]): row for row in new} if keys else {}
+    known = [tuple(row[:keys]) for row in old]
+    return [found.get(key, row) for key, row in zip(known, old)] + [row for row in new if tuple(row[:keys]) not in known]
+
+
+def _rows(name):
+    """Rows of cells of the table of a suite in its page, its names and rule first."""
+    text = of(name).read_text(encoding="utf-8").partition(f"<!-- bench: {name} -->")[2].partition(END)[0]
+    lines = [line.strip()[1:-1] for line in text.splitlines() if line.startswith("|")]
+    return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)] for line in lines]
 
 
 def _cell(text):
@@ -51,15 +69,15 @@ def _around(name):
     return before + mark, END + after
 
 
-def _caption():
-    """Command, version, commit, machine and date."""
+def _caption(more=""):
+    """Command, version, commit, machine and date; more: a sentence behind them."""
     from tehl_taichi.profiles import measure
 
     from tehl_taichi import __version__
     from tehl_taichi.commit import commit
 
     command = shlex.join(["tehl", *_asked(sys.argv[1:])])
-    return textwrap.fill(f"`{command}`, version {__version__}, commit {commit()}; {measure.machine()}.", WIDTH)
+    return textwrap.fill(f"`{command}`, version {__version__}, commit {commit()}; {measure.machine()}.{more}", WIDTH)
 
 
 def _asked(words):

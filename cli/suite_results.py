@@ -52,10 +52,11 @@ class Results:
         if as_json:
             print_json(found)
 
-    def documented(self, columns, rows):
-        """Write the suite's table into its page in docs where that is wanted; rows: lists of texts."""
+    def documented(self, columns, rows, keys=0):
+        """Write the suite's table into its page in docs where that is wanted; rows: lists of texts; keys: as of
+        :func:`tehl_cli.bench_page.write`."""
         if self.write:
-            bench_page.write(self.name, columns, rows)
+            bench_page.write(self.name, columns, rows, keys)
             say(f"wrote {bench_page.of(self.name)}")
 
     def page(self, text):

@@ -58,13 +58,14 @@ class VerdictRow:
     reason: str = ""
 
 
-def run(folder, quick=False, progress=None, workers=1, threads=None):
+def run(folder, quick=False, progress=None, workers=1, threads=None, only=()):
     """Generator of the rows so far, in the order of scenes and variants: after each row, with several workers after each scene.
 
     Stores and rows lie in `folder` and are used again. progress: called with a line of text; workers, threads: as of
-    :func:`tehl_taichi.profiles.measure.side_by_side`.
+    :func:`tehl_taichi.profiles.measure.side_by_side`; only: names of scenes, in place of all.
     """
-    folder, found, names = Path(folder).absolute(), {}, SCENES[:1] if quick else SCENES
+    folder, found = Path(folder).absolute(), {}
+    names = SCENES[:1] if quick else tuple(name for name in SCENES if not only or name in only)
     alone = workers == 1
     jobs = [(name, folder, quick, progress if alone else None) for name in names]  # other processes do not print
     for number, answer in measure.side_by_side(rows if alone else _listed, jobs, workers, threads):

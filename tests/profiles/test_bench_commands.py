@@ -129,6 +129,29 @@ def test_a_suite_replaces_its_table_in_the_page_and_nothing_else(tmp_path, monke
     assert lines == [f"| 64 | 16 | {threads} | 7.1 | 1.00 | 6450 | 2.0 | 15.5 | 180 |  |" for threads in (1, 2)]
 
 
+def test_a_single_scene_replaces_its_rows_of_the_verdict_table_alone(tmp_path, monkeypatch):
+    def rows(name, *_):
+        return [verdict.VerdictRow(name, "case", 0.5, 0.6, 2e-5, {"Fi_surface": 0.01, "Fi_below": 0.02}, "a", (4e8, 4e8))]
+
+    monkeypatch.setattr(verdict, "rows", rows)
+    page, marks = tmp_path / "docs" / "strength.md", ("<!-- bench: verdict -->", "<!-- bench end -->")
+    page.parent.mkdir()
+    old = "| 1.5 µm dent | as it is | b | 0.73 | 1.2 | 177 | 400 |\n| 1.5 µm dent | case profile | | | | | |\n"
+    page.write_text(f"before\n{marks[0]}\n\n| scene | variant |\n|---|---|\n{old}{marks[1]}\nafter", encoding="utf-8")
+    words = ("bench", "verdict", "--write", "--out", tmp_path / "out", "--force")
+    refused = here(*words, "--only", "ball", cwd=tmp_path)
+    assert refused.returncode == 2 and "--only = 'ball' is not known" in refused.stderr
+    for name in ("dent", "rough-pair", "dent"):
+        done = here(*words, "--only", name, cwd=tmp_path)
+        assert done.returncode == 0, done.stderr
+    lines = page.read_text(encoding="utf-8").splitlines()
+    assert (lines[0], lines[-1]) == ("before", "after") and "Other rows are of an earlier command." in " ".join(lines)
+    assert [line for line in lines if line.startswith("| 1.5 µm dent") or "ground" in line] == [
+        "| 1.5 µm dent | as it is | b | 0.73 | 1.2 | 177 | 400 |",
+        "| 1.5 µm dent | case profile | a | 0.500 ± 0.010 | 0.600 ± 0.020 | 20 | 400 |",
+        "| ground flanks, 99th percentile | case profile | a | 0.500 ± 0.010 | 0.600 ± 0.020 | 20 | 400 |"]
+
+
 def parted(text):
     """What stands before, in and behind the table of the suite `scaling` in the page."""
     head, rest = text.split("<!-- bench: scaling -->")
