@@ -4,6 +4,7 @@ from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.scene import resolution
 
 FACTORS = 4, 8  # tried one after the other; the first has a window of factor 2 beside it for its error bars
+SLOWER = 2.3  # a node of a window than one of the run: more rounds a step (gear with temperatures, 256x64, SRR 0.12, factor 4)
 DECIDING = {"p_max_Pa": "the largest pressure", "h_min_m": "the smallest film"}  # numbers whose error a window may settle
 
 
@@ -22,6 +23,19 @@ def reason(run):
     errors = run.summary["transient"].get("error", {})
     unknown = [words for key, words in DECIDING.items() if key in errors and errors[key] is None]
     return f"the error of {unknown[0]} is not known" if unknown and any(errors.values()) else ""
+
+
+def work(store, factor):
+    """Time of a run with a window of this factor, and of half of it for the error bars, over that of the run alone."""
+    from tehl_taichi.march.zoom.window import Window
+    from tehl_taichi.march.zoom.zoomed_passage import LEAD
+
+    scene, (begin, end) = store.scene, store.scene.path
+    until = None if few_cells(scene) else coarse_runs.resolved(scene, store, store.scalar)
+    part = 1.0 if until is None else min((end - until + LEAD) / (end - begin), 1.0)
+    cells = scene.grid.nx * max(scene.rows, 1)
+    windows = [Window.of(scene, one) for one in (factor // 2, factor) if one > 1]
+    return 1.0 + part * SLOWER * sum(w.factor * w.nx * max(w.ny, 1) for w in windows) / cells
 
 
 def few_cells(scene):

@@ -1,5 +1,7 @@
 """The next finer grids of a scene, and what the first costs."""
 
+import math
+
 from tehl_taichi.values.coded_text import Option, grid_option
 
 
@@ -29,10 +31,11 @@ def along(scene):
     return _with_work(grid_option(2 * scene.grid.nx, scene.grid.ny), 2 ** (1 + scene.transient))
 
 
-def zoom_option(scene):
-    """'--zoom 4', where a fine window may be added to a passage; else ""."""
-    possible = scene.transient and not (scene.zooms or scene.runs_in) and scene.output.every == 1
-    return Option("--zoom 4", "a window four times as fine") if possible else ""
+def zoom_option(scene, work):
+    """'--zoom 4 (6 times the work)', where a fine window may be added to a passage; else "". work(factor): of the run with a
+    window over that of the run alone."""
+    possible = scene.transient and not scene.zooms and scene.output.every == 1
+    return _with_work(Option("--zoom 4", "a window four times as fine"), math.ceil(work(4))) if possible else ""
 
 
 def _with_work(option, work):

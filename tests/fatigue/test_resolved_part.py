@@ -13,6 +13,7 @@ from tehl_taichi.fatigue import assessment
 from tehl_taichi.fatigue.search_result import PART
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.report import scene_text, verdict
+from tehl_taichi.runs import zoom_need
 from tehl_taichi.runs.summary import result_warnings, summary, summary_rows
 from tehl_taichi.runs.sweep import summary_columns
 from tehl_taichi.values.coded_text import Reason
@@ -134,14 +135,15 @@ def test_a_smooth_contact_that_is_worst_at_its_surface_has_one_row():
         assert rows["Fi_max of the smooth contact at the surface"] == "0.7 (error unknown)"
 
 
-def test_one_reason_is_said_once():
+def test_one_reason_is_said_once(monkeypatch):
+    monkeypatch.setattr(zoom_need, "work", lambda store, factor: 1.3 * factor)
     why = {"Fi_max": Reason("exit not resolved: a narrow peak", "exit")}
     told = {"transient": {"unknown": {"p_max_Pa": why["Fi_max"], "h_min_m": "it still changes"}},
             "fatigue": {"unknown": why, "resolved": {"unknown": why, "below": {"unknown": why}}}}
     assert list(result_warnings.unknown_errors(SimpleNamespace(scene=GEAR), told)) == [
         "the error of passage p_max_Pa, Fi_max, Fi_max of the resolved part, Fi_max below the surface of the resolved part "
         "is not known: exit not resolved: a narrow peak; try a grid that is finer along x: --grid 512x64 (4 times the work)"
-        + ", or --zoom 4" * GEAR.isothermal,
+        ", or --zoom 4 (6 times the work)",
         "the error of passage h_min_m is not known: it still changes"]
 
 

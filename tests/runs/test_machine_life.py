@@ -19,7 +19,7 @@ def searched(surface="a", error=2e5, **more):
     """Summary with 1e6 passages to initiation on a surface; the feature is on a."""
     found = {name: {"surface": name, "carries_feature": name == "a", "Fi_max": 1.2, **more} for name in "ab"}
     return {"fatigue": found[surface], "fatigue_by_surface": found, "version": "0.9", "wall_s": 1.0,
-            "steady": {"h_c_m": 4e-7, "h_min_m": 3e-7, "friction_coefficient": 0.05},
+            "steady": {"h_c_m": 4e-7, "h_min_m": 3e-7, "friction_coefficient": 0.05}, "transient": {"p_max_Pa": 2e9},
             "von_mises": {"max_Pa": 1.8e9, "error": {"max_Pa": 2e7}},
             "life": {"passages": 1e6, "surface": surface, "error": {"passages": error}}}
 

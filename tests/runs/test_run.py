@@ -110,7 +110,7 @@ def test_a_run_is_what_is_stored(done):
 def test_a_passage_that_lacks_its_fatigue_says_so():
     from tehl_taichi.runs import single_run
 
-    left = SimpleNamespace(store=SimpleNamespace(last_step=total_steps(RIDGE)), scene=RIDGE)
+    left = SimpleNamespace(store=SimpleNamespace(last_step=total_steps(RIDGE), run_in=None), scene=RIDGE)
     assert single_run._missing(left) == ", the whole passage; stresses and errors are missing"
     left.store.last_step -= 1
     assert single_run._missing(left) == ""

@@ -14,7 +14,7 @@ SCENE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "gri
 def finished(scene, resolved=None, error=None, monkeypatch=None):
     """A finished run whose grid resolves the pressure up to a place, with the error of its largest pressure."""
     monkeypatch.setattr(zoom_need.coarse_runs, "resolved", lambda *given: resolved)
-    return types.SimpleNamespace(scene=scene, store=types.SimpleNamespace(scalar=None), path="a.zarr",
+    return types.SimpleNamespace(scene=scene, store=types.SimpleNamespace(scalar=None, scene=scene), path="a.zarr",
                                  summary={"transient": {"error": {"p_max_Pa": error}}})
 
 
@@ -65,3 +65,11 @@ def test_a_run_without_need_stays_as_it_is(monkeypatch):
     monkeypatch.setattr(single_run, "open", lambda path: before, raising=False)
     assert zoom_store.zoom("a.zarr", "auto", progress=progress) is before
     assert progress.texts == ["this grid resolves the passage: no window is needed"]
+
+
+def test_the_work_of_a_window_is_that_of_its_part_of_the_passage(monkeypatch):
+    start, end = SCENE.path
+    whole, late = (zoom_need.work(finished(SCENE, place, None, monkeypatch).store, 4) for place in (start, 0.4))
+    assert whole > late > 1.0 and (late - 1) / (whole - 1) == pytest.approx(end / (end - start))
+    eight = zoom_need.work(finished(SCENE, 0.4, None, monkeypatch).store, 8)
+    assert eight > 1 + 3 * (late - 1)  # of a line: twice the cells and the steps

@@ -105,6 +105,13 @@ class _Of:
         return error_of(summary, *self.keys)
 
 
+class _OfPassage(_Of):
+    """A number of a passage, none of a steady contact."""
+
+    def __call__(self, position, p_H, summary):
+        return super().__call__(position, p_H, summary) if dig(summary, "transient") else None
+
+
 CONTACT, STEADY, PASSAGE = TABLES = ("contact", "steady film", "while the feature passes")
 # of the parts of a summary
 TITLES = {"steady": STEADY, **dict.fromkeys(("transient", "fatigue", "fatigue.statistics", "fatigue.below",
@@ -126,7 +133,7 @@ COLUMNS = (
     TableColumn("lambda_GF", "lambda_GF", 1, ".3f", lambda at, *_: at.film_ratios.get("lambda_GF"), STEADY),
     TableColumn("h_min_Ra", "h_min/Ra", 1, ".3f", lambda at, *_: at.film_ratios.get("h_min_Ra"), STEADY),
     TableColumn("Fi_judged", "Fi judged", 1, ".3f", _Judged(), PASSAGE),
-    TableColumn("von_mises_max_Pa", "Mises GPa", 1e-9, ".3f", _Of("von_mises", "max_Pa"), PASSAGE),
+    TableColumn("von_mises_max_Pa", "Mises GPa", 1e-9, ".3f", _OfPassage("von_mises", "max_Pa"), PASSAGE),
     TableColumn("passages", "passages", 1, ".2g", _Of("life", "passages"), PASSAGE),
     TableColumn("hours", "hours", 1, ".2g", _Of("life", "hours"), PASSAGE),
     TableColumn("worse_body", "body", 1, "", lambda at, p_H, summary: dig(summary, "fatigue", "surface"), PASSAGE),

@@ -1,5 +1,7 @@
 """Warnings about the results of a run, a sentence each: the scene's own warnings and what its store shows."""
 
+import functools
+
 import numpy as np
 
 from tehl_taichi.fatigue.judged_surfaces import by_surface, others
@@ -74,10 +76,16 @@ def unknown_errors(store, summary):
     """Numbers whose error is unknown, with the reason; one sentence for all that share it."""
     for why, names in _unknown(summary).items():
         grid = film_warnings.finer_exit(store.scene, why)
-        window = zoom_option(store.scene) if grid else ""
+        window = zoom_option(store.scene, functools.partial(_zoomed_work, store)) if grid else ""
         more = (f"; try a grid that is finer along x: {grid}" if grid else "") + (f", or {window}" if window else "")
         yield with_data(f"the error of {few(names)} is not known: {why}{more}", grid, window, numbers=names,
                         reason=str(why), reason_code=why.code)
+
+
+def _zoomed_work(store, factor):
+    from tehl_taichi.runs import zoom_need
+
+    return zoom_need.work(store, factor)
 
 
 def few(names):
