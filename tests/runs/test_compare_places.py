@@ -53,7 +53,7 @@ def test_flanks_are_compared_by_position(flanks):
     assert [place.key for place in found.places] == ["A", "C", "E"]
     assert rows["steady_h_c_m", "A"].texts == ("0.100", "0.200") and rows["steady_h_c_m", "A"].change == "+100% (error unknown)"
     assert rows["Fi_max", "A"].change == NOT_SEPARATED, "1.4 of an unknown error, 1.5 ± 0.2"
-    assert rows["Fi_max", "C"].change == "+29%" and ("Fi_max", "E") not in rows
+    assert rows["Fi_max", "C"].change == "+29% (error unknown)" and ("Fi_max", "E") not in rows
     assert found.without_result() == {"a": ["E (x_pl = 9.596 mm)"], "b": ["E (x_pl = 9.596 mm)"]}
     assert rows["srr", "C"].change == "" and found.unequal() == ["steady_h_c_m", "steady_p_max_Pa", "Fi_max", "Fi_judged"]
     assert tehl.compare(*map(tehl.open, flanks)).differs == found.differs
@@ -128,7 +128,7 @@ def test_studies_over_the_same_keys_are_compared_by_case(studies):
     assert found.kind == "study" and found.differs["feature.0.height"] == [0.5e-6, 1e-6]
     assert [(place.words, place.x) for place in found.places] == [("srr = -0.1", -0.1), ("srr = 0", 0.0), ("srr = 0.1", 0.1)]
     row = next(row for row in found.rows if row.name == "fatigue_Fi_max")
-    assert row.numbers == ((pytest.approx(0.75), 0.04), (pytest.approx(0.9), None)) and row.change == "+20%"
+    assert row.numbers == ((pytest.approx(0.75), 0.04), (pytest.approx(0.9), None)) and row.change == "+20% (error unknown)"
     assert row.quantity.heading == "Fi at the surface, largest"
     alone = next(row for row in found.rows if row.place.x == 0.0)
     assert alone.texts[0] == "-" and alone.change == ""
