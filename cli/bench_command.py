@@ -141,10 +141,10 @@ def zoom(
     results = Results(out, "zoom", force, write=write)
     for rows in suite.run(out, quick, threads, say):  # those so far are kept, whatever comes
         measure.save(out, "zoom", measure.result([vars(row) for row in rows]))
-    texts_of = [suite.cells(row) for row in rows]
+    lines = suite.lines(rows)
     if not as_json:
-        list_table("zoom: a fine window against a fine grid", suite.COLUMNS, texts_of)
-    results.documented(suite.COLUMNS, texts_of)
+        list_table("fine grid everywhere: fine window (off by %)", suite.COLUMNS, lines)
+    results.documented(suite.COLUMNS, lines)
     results.finish([{**vars(row), "off": row.off, "holds": row.holds} for row in rows], lambda plt: suite.chart(plt, rows),
                    as_json)
 

@@ -16,9 +16,9 @@ FEATURES = {"asperity": 1.5e-6, "dent": -1.5e-6}
 # {number: (where it is in a summary, unit, that in SI)}
 NUMBERS = {"p_max": (("transient", "p_max_Pa"), "GPa", 1e9), "h_min": (("transient", "h_min_m"), "um", 1e-6),
            "film_max": (("transient", "film_max_C"), "degC", 1.0),
-           **{f"Fi {name}": (("fatigue", *place, "Fi_max"), "", 1.0) for name, place in (
-               ("surface", ()), ("below", ("below",)), ("averaged, surface", ("averaged",)),
-               ("averaged, below", ("averaged", "below")))}}
+           **{f"Fi {body}, {name}": (("fatigue_by_surface", body, *place, "Fi_max"), "", 1.0) for body in "ab"
+              for name, place in (("surface", ()), ("below", ("below",)), ("surface, averaged", ("averaged",)),
+                                  ("below, averaged", ("averaged", "below")))}}
 
 
 @dataclass(frozen=True)
@@ -105,17 +105,26 @@ def _value(summary, place):
     return summary
 
 
-COLUMNS = ("case", "number", "coarse", "with window", "fine", "off, %", "bar holds", "time s: coarse, window, fine")
+# columns of the table, and the numbers that they show
+SHOWN = {"p_max, GPa": "p_max", "h_min, um": "h_min", "film_max, degC": "film_max",
+         **{f"Fi {body} {part}": f"Fi {body}, {part}, averaged" for body in "ab" for part in ("surface", "below")}}
+COLUMNS = ("case", *SHOWN, "time, s")
 
 
-def cells(row):
-    """Texts of a row."""
-    unit = f" {row.unit}" if row.unit else ""
-    bar = "" if row.error is None else f" ± {row.error:.2g}"
-    holds = {None: "no bar", True: "yes", False: "no"}[row.holds]
-    coarse = "–" if row.coarse is None else f"{row.coarse:.4g}{unit}"
-    return [row.case, row.number, coarse, f"{row.zoom:.4g}{bar}{unit}", f"{row.fine:.4g}{unit}",
-            f"{100 * row.off:.2f}", holds, f"{row.coarse_s:.0f}, {row.zoom_s:.0f}, {row.fine_s:.0f}"]
+def lines(rows):
+    """A line of texts for each case: numbers with the window, and by how much % they are off, after the fine run's; times of
+    the coarse run, with its window, of the fine one."""
+    out = []
+    for case in dict.fromkeys(row.case for row in rows):
+        own = {row.number: row for row in rows if row.case == case}
+        times = own["p_max"]
+        out.append([case, *(_pair(own.get(name)) for name in SHOWN.values()),
+                    f"{times.coarse_s:.0f}, {times.zoom_s:.0f}, {times.fine_s:.0f}"])
+    return out
+
+
+def _pair(row):
+    return f"{row.fine:.4g}: {row.zoom:.4g} ({100 * row.off:.2f})" if row else ""
 
 
 def chart(plt, rows):

@@ -60,7 +60,7 @@ def test_its_fields_are_stored_with_their_places(zoomed):
     store = Reader.open(zoomed.path)
     p, left, x, entries = (store.map(f"zoom_{name}") for name in ("pressure", "left", "x", "entry"))
     assert p.shape == (len(entries), x.size, 1) and p.dtype == np.float32
-    assert p.max() == pytest.approx(zoomed.summary["zoom"]["p_max_Pa"], rel=1e-6)
+    assert p.max() <= zoomed.summary["zoom"]["p_max_Pa"] * (1 + 1e-6) < 1.01 * p.max()  # that of moments between steps, too
     step = x[1] - x[0]
     assert step == pytest.approx((store.x[1] - store.x[0]) / 4)
     last = int(entries[-1])

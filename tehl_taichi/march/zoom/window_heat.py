@@ -58,11 +58,13 @@ class WindowHeat:
         T = self.film.T
         return {"temperature_mid": T[len(T) // 2], "temperature_a": T[0], "temperature_b": T[-1]}
 
-    def highest(self, T):
-        """{name: deg C} of the run at temperatures T with the window in it."""
-        own, rest = self.film.T[:, self.window.inside(self.origin)], T[:, self.window.outside(self.origin)]
-        return {"film_max_C": max(largest(own), largest(rest)), "surface_a_max_C": max(own[0].max(), rest[0].max()),
-                "surface_b_max_C": max(own[-1].max(), rest[-1].max())}
+    def inside(self):
+        """{name: deg C}: highest temperatures of the newest state, of nodes that are the window's own."""
+        return _highest(self.film.T[:, self.window.inside(self.origin)])
+
+    def outside(self, T):
+        """{name: deg C}: those of temperatures T of the run elsewhere."""
+        return _highest(T[:, self.window.outside(self.origin)])
 
     def _fine(self, T, origin):
         return self.refining(origin, self.window.nx + 1).smooth(T, 4)
@@ -78,3 +80,7 @@ class WindowHeat:
             for slots in (slice(first, first + count), slice(flux, flux + 1)):
                 out[slots] = fine.smooth(state.memory[slots], 4)
         return out
+
+
+def _highest(T):
+    return {"film_max_C": largest(T), "surface_a_max_C": T[0].max(), "surface_b_max_C": T[-1].max()}

@@ -20,6 +20,7 @@ from tehl_taichi.values.refining import Refining
 
 SHEAR = "traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b"
 GUESSED = 2  # order of the guess of the pressure
+EXTREMES = {"p_max_Pa": max, "h_min_m": min}
 PAD = 4  # cells of the run beside the window whose history is kept: more than it moves and paths reach in ORDER steps
 
 
@@ -57,7 +58,7 @@ class WindowPassage:
     def advance(self, step):
         """From `step` to the next of the run. Returns the reports of its steps; the last one has not converged where it failed
         for good."""
-        done, whole, reports = 0.0, self.window.factor, []
+        done, whole, reports, self.extremes = 0.0, self.window.factor, [], []
         while done < whole - 1e-9:
             part = min(self.parts.next(done % 1.0), whole - done)
             report = self._try(step + (done + part) / whole, part)
@@ -102,8 +103,11 @@ class WindowPassage:
         return {"pressure": v.get(fields.P) * s.p_H, "film": v.get(fields.H) * s.h, **shear, **warm}
 
     def numbers(self, step):
-        """{name: number} of the run at a step with the window in it, that :meth:`fields` do not give."""
-        return self.heat.highest(self.base.at(step).T) if self.heat else {}
+        """{name: number} of all its moments since the step before: largest pressure and smallest film of the window alone,
+        highest temperatures of the run with it."""
+        found = {name: reduce(one[name] for one in self.extremes) for name, reduce in EXTREMES.items()}
+        outside = self.heat.outside(self.base.at(step).T) if self.heat else {}
+        return {**found, **{name: max(there, *(one[name] for one in self.extremes)) for name, there in outside.items()}}
 
     def _put(self, state):
         """Gap and pressure of the run at a state into the tables. Returns the window's first column, and that pressure."""
@@ -129,6 +133,12 @@ class WindowPassage:
         """Place of the first feature, columns of the fine grid."""
         return state.X / self.window.dx
 
+    def _extremes(self, origin):
+        """{name: number} of the newest state, of nodes that are the window's own."""
+        v, s, inside = self.levels, self.levels.scales, self.window.inside(origin)
+        found = {"p_max_Pa": v.get(fields.P)[inside].max() * s.p_H, "h_min_m": v.get(fields.H)[inside].min() * s.h}
+        return found | (self.heat.inside() if self.heat else {})
+
     def _accept(self, state, origin, ring, dT):
         v = self.levels
         self.origin = origin
@@ -137,6 +147,7 @@ class WindowPassage:
         self.storage.accept(dT)
         if self.heat:
             self.heat.accept(origin, self._at(state))
+        self.extremes.append(self._extremes(origin))
 
     def _kept(self, state, origin, mass=None):
         """(first column, rho H) of a state under the window and beside it: that of the run but where the window's is `mass`."""

@@ -24,9 +24,9 @@ class ZoomedReader:
         self.series = {name: np.array(reader.scalar(name), float) for name in EXTREMES}
         for entry in zoomed.entries:
             self._take_extremes(entry)
-        for name, values in zoomed.numbers.items():
+        for name in zoomed.numbers.keys() - EXTREMES.keys():
             self.series[name] = np.array(reader.scalar(name), float)
-            self.series[name][zoomed.entries] = values
+            self.series[name][zoomed.entries] = zoomed.numbers[name]
 
     def __len__(self):
         return len(self.base)
@@ -36,13 +36,12 @@ class ZoomedReader:
         return self.series[name] if name in self.series else self.base.scalar(name)
 
     def _take_extremes(self, n):
-        """The largest pressure and the least film of entry n: of the window in its core, of the run elsewhere."""
+        """The largest pressure and the least film of entry n: of the window since the entry before, of the run elsewhere."""
         at = self.place[n]
-        inside, outside = (of(self.zoomed.origins[at]).T for of in (self.zoomed.window.inside, self.zoomed.window.outside))
+        outside = self.zoomed.window.outside(self.zoomed.origins[at]).T
         run = self.base.fields(n, tuple(field for field, _ in EXTREMES.values()))
         for name, (field, extreme) in EXTREMES.items():
-            own = self.zoomed.fields[field][at]
-            self.series[name][n] = extreme(np.concatenate([run[field][outside], own[inside]]))
+            self.series[name][n] = extreme([extreme(run[field][outside]), self.zoomed.numbers[name][at]])
 
     def fields(self, n, names):
         """{name: (nx+1, ny+1) array} of entry n."""

@@ -85,7 +85,7 @@ def zoomed(scene, factor=FACTOR, since=1):
         origin = w.origin(run.feature_x(n) / s.a)
         part = np.ix_(np.arange(origin, origin + w.nx + 1), np.arange(w.row, w.row + w.ny + 1))
         values = {name: field[part].T for name, field in fine.fields(n, (*NAMES, "film")).items()}
-        found.add(n, origin, values, {})
+        found.add(n, origin, values, {"p_max_Pa": values["pressure"].max(), "h_min_m": values["film"].min()})
     return ZoomedReader(run, found, scene.symmetric)
 
 

@@ -159,6 +159,24 @@ def test_a_step_that_fails_once_is_taken_in_halves(runs, monkeypatch):
     assert max(np.abs(a - b).max() for a, b in zip(whole.fields["pressure"], halved.fields["pressure"])) < 5e6
 
 
+def test_numbers_are_those_of_all_moments_between_two_steps_of_the_run(runs, monkeypatch):
+    (scene, reader), seen, accept = runs(0.0), [], WindowPassage._accept
+
+    def watched(march, state, origin, ring, dT):
+        accept(march, state, origin, ring, dT)
+        inside = march.window.inside(origin)
+        seen.append([march.levels.get(name)[inside] for name in (fields.P, fields.H)])
+
+    monkeypatch.setattr(WindowPassage, "_accept", watched)
+    found = passage(scene, reader, 2)
+    s, count = Scales.of(scene), len(found.entries)
+    assert len(seen) == 2 * count
+    p, h = (np.reshape([reduce(one[n]) for one in seen], (count, 2)) for n, reduce in enumerate((np.max, np.min)))
+    assert np.allclose(found.numbers["p_max_Pa"], p.max(axis=1) * s.p_H, rtol=1e-12)
+    assert np.allclose(found.numbers["h_min_m"], h.min(axis=1) * s.h, rtol=1e-12)
+    assert (p[:, 0] > p[:, 1]).any() and (h[:, 0] < h[:, 1]).any()
+
+
 def test_progress_counts_the_steps_of_the_run(runs):
     seen = []
     scene, reader = runs(0.0)
