@@ -69,8 +69,8 @@ def conclusions(
 def verdict(
     out: Path = folder("runs/verdict", "folder of the stores and results (existing stores are reused)"),
     quick: bool = typer.Option(False, "--quick", help="run the default asperity on 64 x 16 cells"),
-    only: Optional[list[str]] = typer.Option(None, help="scene to run, instead of all (repeatable): gear, dent, "
-                                                        "touching-asperity or rough-pair; with --write the other rows stay"),
+    only: Optional[list[str]] = typer.Option(None, help="SCENE or SCENE:VARIANT to run, instead of all (repeatable), as "
+                                                        "dent or dent:all; with --write the other rows stay"),
     as_json: bool = JSON,
     force: bool = FORCE,
     write: bool = typer.Option(False, "--write", help="replace the table in docs/strength.md (of the current folder)"),
@@ -88,7 +88,7 @@ def verdict(
     from tehl_taichi.values.checks import choice
 
     for name in only or ():
-        choice("--only", name, suite.SCENES)
+        choice("--only", name, suite.choices())
     results = Results(out, "verdict", force, more=("md",), write=write)
     for rows in suite.run(out, quick, say, workers, threads, only):  # those so far are kept, whatever comes
         measure.save(out, "verdict", measure.result([suite.plain_row(row) for row in rows], note=suite.NOTE))

@@ -62,12 +62,14 @@ def run(folder, quick=False, progress=None, workers=1, threads=None, only=()):
     """Generator of the rows so far, in the order of scenes and variants: after each row, with several workers after each scene.
 
     Stores and rows lie in `folder` and are used again. progress: called with a line of text; workers, threads: as of
-    :func:`tehl_taichi.profiles.measure.side_by_side`; only: names of scenes, in place of all.
+    :func:`tehl_taichi.profiles.measure.side_by_side`; only: scenes in place of all, SCENE or SCENE:VARIANT.
     """
     folder, found = Path(folder).absolute(), {}
-    names = SCENES[:1] if quick else tuple(name for name in SCENES if not only or name in only)
+    variants = _variants(only or SCENES[: 1 if quick else None])
+    names = list(variants)
     alone = workers == 1
-    jobs = [(name, folder, quick, progress if alone else None) for name in names]  # other processes do not print
+    says = progress if alone else None  # other processes do not print
+    jobs = [(name, folder, quick, says, variants[name]) for name in names]
     for number, answer in measure.side_by_side(rows if alone else _listed, jobs, workers, threads):
         own = found[names[number]] = []
         for row in _lost(names[number], answer.reason) if isinstance(answer, pool.LostJob) else answer:
@@ -76,6 +78,18 @@ def run(folder, quick=False, progress=None, workers=1, threads=None, only=()):
                 yield _in_order(found, names)
         if not alone:
             yield _in_order(found, names)
+
+
+def _variants(only):
+    """{scene: its variants} of SCENE or SCENE:VARIANT each, in the order of both."""
+    parts = {(name, own or None) for name, _, own in (one.partition(":") for one in only)}
+    found = {name: [one for one in VARIANTS if {(name, one), (name, None)} & parts] for name in SCENES}
+    return {name: variants for name, variants in found.items() if variants}
+
+
+def choices():
+    """What `only` of :func:`run` may name."""
+    return tuple(name + part for name in SCENES for part in ("", *(f":{variant}" for variant in VARIANTS)))
 
 
 def _in_order(found, names):
@@ -91,10 +105,10 @@ def _listed(*job):
     return list(rows(*job))
 
 
-def rows(name, folder, quick=False, progress=None):
-    """Generator of the VerdictRows of a scene."""
+def rows(name, folder, quick=False, progress=None, variants=tuple(VARIANTS)):
+    """Generator of the VerdictRows of a scene with these variants."""
     base, stores = scene(name).replace(**(QUICK if quick else FINER.get(name, {}))), {}
-    for variant, changes in VARIANTS.items():
+    for variant, changes in ((one, VARIANTS[one]) for one in variants):
         described, own = base.replace(**changes), variant if "time.run_in" in changes else ""
         file = folder / f"{name}-{variant}-{base.grid.nx}x{base.grid.ny}.json"
         if kept := _kept(file, described):

@@ -141,7 +141,7 @@ def test_a_single_scene_replaces_its_rows_of_the_verdict_table_alone(tmp_path, m
     words = ("bench", "verdict", "--write", "--out", tmp_path / "out", "--force")
     refused = here(*words, "--only", "ball", cwd=tmp_path)
     assert refused.returncode == 2 and "--only = 'ball' is not known" in refused.stderr
-    for name in ("dent", "rough-pair", "dent"):
+    for name in ("dent", "rough-pair", "dent:case"):
         done = here(*words, "--only", name, cwd=tmp_path)
         assert done.returncode == 0, done.stderr
     lines = page.read_text(encoding="utf-8").splitlines()

@@ -132,3 +132,13 @@ def test_the_table_has_bars_and_says_what_runs_in():
     assert "| 1.5 µm asperity (default) | case profile | b | 0.790 ± 0.013 | 1.09 | 34 | 596, 595 |" in text
     assert "Run-in: three passages at most, both bodies" in text
     assert {"scene", "variant", "Fi_surface", "Fi_below", "depth_m", "error"} <= verdict.plain_row(ROW).keys()
+
+
+def test_some_scenes_and_variants_run_in_the_order_of_all(tmp_path, monkeypatch):
+    made = []
+    monkeypatch.setattr(verdict, "_passages", lambda *_: (None, []))
+    monkeypatch.setattr(verdict, "_row", lambda name, variant, *_: made.append(variant) or verdict.VerdictRow(name, variant))
+    found = list(verdict.run(tmp_path, only=["rough-pair:all", "gear:case", "rough-pair:default", "dent"]))[-1]
+    assert [(row.scene, row.variant) for row in found] == [
+        ("gear", "case"), *(("dent", one) for one in verdict.VARIANTS), ("rough-pair", "default"), ("rough-pair", "all")]
+    assert len(made) == 8 and {"gear", "dent:all", "rough-pair:run-in"} <= set(verdict.choices())
