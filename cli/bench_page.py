@@ -77,7 +77,8 @@ def _caption(more=""):
     from tehl_taichi.commit import commit
 
     command = shlex.join(["tehl", *_asked(sys.argv[1:])])
-    return textwrap.fill(f"`{command}`, version {__version__}, commit {commit()}; {measure.machine()}.{more}", WIDTH)
+    return textwrap.fill(f"`{command}`, version {__version__}, commit {commit()}; {measure.machine()}.{more}", WIDTH,
+                         break_on_hyphens=False)
 
 
 def _asked(words):
