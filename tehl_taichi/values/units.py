@@ -60,6 +60,11 @@ def in_unit(where, value, unit):
     return _converted(where, value, digits, name, unit)
 
 
+def known(name, unit):
+    """Whether numbers in `unit` may be written in the unit `name`."""
+    return _named(name, TEMPERATURES if unit == "deg C" else UNITS.get(unit, {})) is not None
+
+
 def split(text):
     """(number, unit) of "3.8 mm" or "3.8", as text; turns at a radius have the unit "rpm at 40 mm". None for other text.
 

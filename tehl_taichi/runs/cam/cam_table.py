@@ -1,14 +1,12 @@
 """Angles of a cycle from a table (CSV): load per length, radii and speeds of both surfaces relative to the contact."""
 
-import csv
-import io
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import ClassVar
 
-from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.flank import table_text
 from tehl_taichi.values.checks import nearest
 from tehl_taichi.values.quantity import Number
 
@@ -68,24 +66,16 @@ class CamPosition:
 def load(path):
     """The :class:`CamPosition` of every row of a CSV file, by angle. Raises SceneError."""
     path = Path(path)
-    try:
-        with io.StringIO(files.content(path).decode("utf-8-sig"), newline="") as file:
-            rows = csv.DictReader(file, skipinitialspace=True)
-            columns = _columns(path, rows)
-            found = [_position(path, n, row, columns) for n, row in enumerate(rows, 2)]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
+    names, rows = table_text.rows(path)
+    columns = _columns(path, names)
+    found = [_position(path, n, row, columns) for n, row in enumerate(rows, 2)]
     if not 1 <= len(found) <= MOST:
         raise SceneError(f"table {path} has {len(found)} rows; allowed: 1 to {MOST}")
     return sorted(found, key=lambda at: at.angle)
 
 
-def _columns(path, rows):
+def _columns(path, names):
     """{column: (factor, declaration)} of the table: the radii reduced, or those of both surfaces."""
-    names = [name.strip() for name in rows.fieldnames or ()]
-    rows.fieldnames = names
-    if twice := sorted({name for name in names if name and names.count(name) > 1}):
-        raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")
     radii = REDUCED if "R_mm" in names else BOTH
     if missing := [name for name in (*ALWAYS, *radii) if name not in names]:
         others = [name for name in names if name not in KNOWN]
@@ -95,7 +85,7 @@ def _columns(path, rows):
 
 
 def _position(path, n, row, columns):
-    SI = {name: _value(f"table {path}, row {n}: {name}", row[name], *known) for name, known in columns.items()}
+    SI = {name: _value(f"table {path}, row {n}: {name}", row.get(name), *known) for name, known in columns.items()}
     R = SI.get("R_mm") or 1 / (1 / SI["R_a_mm"] + 1 / SI["R_b_mm"] or math.inf)
     if not 0 < R < math.inf:
         raise SceneError(f"table {path}, row {n}: a reduced radius of {R:g} m makes no contact; allowed: one curved surface at "

@@ -1,12 +1,10 @@
 """Positions from the table of a loaded tooth contact analysis (CSV)."""
 
-import csv
-import io
 import math
 from pathlib import Path
 
-from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.flank import table_text
 from tehl_taichi.runs.flank.positions import Position
 from tehl_taichi.values.checks import nearest
 from tehl_taichi.values.quantity import Number
@@ -27,12 +25,9 @@ def load(path):
     """Positions of a CSV file with the columns of NEEDED, dedendum of body a (x_pl < 0) first; a column `point` names
     positions, a column `bulk_C` has the bulk temperature, other columns are kept in `more`. Raises SceneError."""
     path = Path(path)
-    try:
-        with io.StringIO(files.content(path).decode("utf-8-sig"), newline="") as file:
-            rows = csv.DictReader(file, skipinitialspace=True)
-            found = [_position(path, n, row) for n, row in enumerate(_complete(path, rows), 2)]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
+    names, rows = table_text.rows(path)
+    _check_names(path, names)
+    found = [_position(path, n, row) for n, row in enumerate(rows, 2)]
     if not 1 <= len(found) <= MOST:
         raise SceneError(f"table {path} has {len(found)} rows; allowed: 1 to {MOST}")
     _check_ways(path, found)
@@ -47,21 +42,16 @@ def _check_ways(path, found):
                          f"tooth{meant(way, 'mm', lambda other: SHORTEST <= abs(other) <= 1e3, NEEDED['x_pl_mm'][1].usual)}")
 
 
-def _complete(path, rows):
-    """The rows, once their header is seen to have every needed column."""
-    names = [name.strip() for name in rows.fieldnames or ()]
-    if twice := sorted({name for name in names if name and names.count(name) > 1}):
-        raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")
+def _check_names(path, names):
+    """Refuse a table without a needed column. Raises SceneError."""
     missing = [name for name in NEEDED if name not in names]
     if missing:
         named = ", ".join(f"{name}{nearest(name, [n for n in names if n not in NEEDED])}" for name in missing)
         raise SceneError(f"table {path} has no column {named}; needed: {', '.join(NEEDED)}")
-    rows.fieldnames = names
-    return rows
 
 
 def _position(path, n, row):
-    SI = {name: _value(f"table {path}, row {n}: {name}", row[name], *limits) for name, limits in NEEDED.items()}
+    SI = {name: _value(f"table {path}, row {n}: {name}", row.get(name), *limits) for name, limits in NEEDED.items()}
     if SI["u_a_m_s"] + SI["u_b_m_s"] == 0:
         raise SceneError(f"table {path}, row {n}: u_a_m_s and u_b_m_s are both 0 m/s: without entrainment there is no film")
     more = {name: value for name, value in row.items() if name and name not in (*NEEDED, POINT, BULK)}

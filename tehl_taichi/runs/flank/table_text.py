@@ -1,0 +1,69 @@
+"""Rows of a table that a user wrote (CSV): any separator, decimal commas, and columns in other units than the usual ones."""
+
+import csv
+import io
+import re
+
+from tehl_taichi.disk import files
+from tehl_taichi.errors import SceneError
+from tehl_taichi.values import units
+
+MARKS = ";", "\t", ","  # between two columns: the first that the line of names has
+COMMA = re.compile(r"\s*([-+]?\d*),(\d+(?:[eE][-+]?\d+)?)\s*")  # a decimal one
+BRACKETS = re.compile(r"(.+?)\s*[\[(](.+)[\])]\s*")
+SPEEDS = "u_a", "u_b"  # whose names have m_s in place of m_per_s
+# {usual name of a column: (its quantity, unit that the parser of units knows, factor to the unit of the usual name)}
+COLUMNS = {"angle_deg": ("angle", "deg", 1.0), "load_N_per_mm": ("load", "N/m", 1e-3), "u_a_m_s": ("u_a", "m/s", 1.0),
+           "u_b_m_s": ("u_b", "m/s", 1.0), "R_mm": ("R", "mm", 1.0), "R_a_mm": ("R_a", "mm", 1.0), "R_b_mm": ("R_b", "mm", 1.0),
+           "x_pl_mm": ("x_pl", "mm", 1.0), "bulk_C": ("bulk", "deg C", 1.0)}
+
+
+def rows(path):
+    """(names of the columns, [{name: text}]) of a file, columns of other units under their usual names and in their units.
+    Raises SceneError."""
+    try:
+        text = files.content(path).decode("utf-8-sig")
+        mark = next((mark for mark in MARKS if mark in text.partition("\n")[0]), ",")
+        with io.StringIO(text, newline="") as file:
+            lines = [[value.strip() for value in line] for line in csv.reader(file, delimiter=mark, skipinitialspace=True)]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
+    lines = [line for line in lines if any(line)]
+    heads = lines[0] if lines else []
+    columns = [_column(head) for head in heads]
+    names = [name for name, _ in columns]
+    if twice := sorted({name for name in names if name and names.count(name) > 1}):
+        raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")
+    points = mark != ","
+    return names, [{name: _value(name, unit, text, points) for (name, unit), text in zip(columns, line)} for line in lines[1:]]
+
+
+def _column(head):
+    """(usual name, its unit as the user wrote it) of a column; the name alone of a usual or an unknown one, with unit ""."""
+    if head in COLUMNS:
+        return head, ""
+    for name, (quantity, unit, _) in COLUMNS.items():
+        for own in _units(head, quantity):
+            if units.known(own, unit):
+                return name, own
+    return head, ""
+
+
+def _units(head, quantity):
+    """Readings of the unit in a head, as N/mm of load_N_per_mm or of load (N/mm), if it is of this quantity."""
+    if (match := BRACKETS.fullmatch(head)) and match[1] == quantity:
+        return [match[2]]
+    if not head.startswith(f"{quantity}_"):
+        return []
+    rest = head.removeprefix(f"{quantity}_").replace("_per_", "/")
+    return [rest.replace("_", "/")] if quantity in SPEEDS else [rest]
+
+
+def _value(name, unit, text, points):
+    """The text of a value with a decimal point, in the usual unit."""
+    if points and (match := COMMA.fullmatch(text)):
+        text = f"{match[1] or 0}.{match[2]}"
+    if not unit or units.split(text) is None:
+        return text
+    _, known, factor = COLUMNS[name]
+    return repr(units.in_unit(name, f"{text} {unit}", known) * factor)

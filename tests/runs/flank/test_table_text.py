@@ -1,0 +1,44 @@
+"""Tables as users write them: separators, decimal commas, other units."""
+
+import pytest
+
+from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.cam import cam_table
+from tehl_taichi.runs.flank import load_table
+
+CAM = "angle_deg, load_N_per_mm, R_mm, u_a_m_s, u_b_m_s\n-20, 116.4, 16.6, 2.0, 0.6\n0, 120, inf, 2.2, 0.7\n"
+
+
+def cam(tmp_path, text):
+    path = tmp_path / "cam.csv"
+    path.write_text(text.replace("inf", "18"))
+    return cam_table.load(path)
+
+
+@pytest.mark.parametrize("text", [
+    CAM.replace(",", ";").replace(".", ","), CAM.replace(", ", "\t"), CAM.replace("\n", "\n\n"),
+    "angle_rad,load_kN_per_m,R_m,u_a_mm_s,u_b_cm_s\n-0.3490658503988659,116.4,0.0166,2000,60\n0,120,0.018,2200,70\n",
+    "angle (deg),load [kN/m],R (cm),u_a (m/s),u_b (m/s)\n-20,116.4,1.66,2.0,0.6\n0,120,1.8,2.2,0.7\n"],
+    ids=["semicolons", "tabs", "empty lines", "other units", "brackets"])
+def test_a_cam_table_in_other_words_is_the_same_cam(tmp_path, text):
+    for one, other in zip(cam(tmp_path, text), cam(tmp_path, CAM), strict=True):
+        for key in ("angle", "R", "load", "u_a", "u_b"):
+            assert getattr(one, key) == pytest.approx(getattr(other, key), rel=1e-12)
+        assert not one.more
+
+
+def test_a_flank_table_in_other_units(tmp_path):
+    path = tmp_path / "flank.csv"
+    path.write_text("x_pl_um;R_a_m;R_b_mm;load_N_per_m;u_a_m_s;u_b_m_s;bulk_K\n-3700;0,0103;24,6;560e3;2,3;3,7;363,15\n")
+    (at,) = load_table.load(path)
+    assert (at.x_pl, at.rho_a, at.rho_b, at.load) == pytest.approx((-3.7e-3, 0.0103, 0.0246, 5.6e5))
+    assert at.bulk == pytest.approx(90.0) and not at.more
+
+
+def test_a_unit_of_something_else_is_no_column(tmp_path):
+    with pytest.raises(SceneError, match="no column load_N_per_mm .did you mean 'load_N'"):
+        cam(tmp_path, CAM.replace("load_N_per_mm", "load_N"))
+    with pytest.raises(SceneError, match="has the column load_N_per_mm twice"):
+        cam(tmp_path, "angle_deg,load_N_per_mm,load_kN_per_m,R_mm,u_a_m_s,u_b_m_s\n0,1,1,1,1,1\n")
+    with pytest.raises(SceneError, match="row 2: u_b_m_s = None is not a number"):
+        cam(tmp_path, CAM.replace(", 0.6", ""))
