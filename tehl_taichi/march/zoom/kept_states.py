@@ -1,6 +1,8 @@
 """States of a march kept in memory, so that it can be followed again from near a step without the steps before."""
 
-MOST = 8  # of them; a thermal one has 11 MB at 257x65x9
+import numpy as np
+
+MOST, BYTES = 8, 3e8  # of them, and of memory in all; a thermal one has 11 MB at 257x65x9
 
 
 class KeptStates:
@@ -12,7 +14,8 @@ class KeptStates:
     def add(self, state):
         """One more."""
         self.states.append(state)
-        if len(self.states) > MOST:
+        size = sum(np.asarray(values).nbytes for values in state.values())
+        if len(self.states) > min(MOST, max(1, int(BYTES / max(size, 1)))):
             del self.states[1::2]
 
     @property

@@ -1,0 +1,33 @@
+"""States of a march that are kept in memory."""
+
+import numpy as np
+
+from tehl_taichi.march.zoom import kept_states
+from tehl_taichi.march.zoom.kept_states import KeptStates
+
+
+def kept(steps, size=10):
+    found = KeptStates({"step": 0, "T": np.zeros(size)})
+    for step in steps:
+        found.add({"step": step, "T": np.zeros(size)})
+    return found
+
+
+def test_they_thin_out_but_for_the_first():
+    found = kept(range(1, 40))
+    steps = [state["step"] for state in found.states]
+    assert steps[0] == 0 and len(steps) <= kept_states.MOST and steps == sorted(steps) and steps[-1] > 30
+
+
+def test_large_ones_are_few(monkeypatch):
+    monkeypatch.setattr(kept_states, "BYTES", 8 * 10 * 3.5)
+    assert len(kept(range(1, 40)).states) <= 3
+    monkeypatch.setattr(kept_states, "BYTES", 1.0)
+    assert [state["step"] for state in kept(range(1, 40)).states] == [0]
+
+
+def test_the_newest_before_a_step():
+    found = kept((5, 9, 14))
+    assert [found.before(step)["step"] for step in (4, 5, 13, 20)] == [0, 5, 9, 14]
+    assert found.start["step"] == 0 and KeptStates({"step": 3}).start is None
+    assert KeptStates({"step": 3}).before(2) is None
