@@ -90,12 +90,12 @@ class SweepLive:
         foot.add_row(ProgressBar(total=len(self.study), completed=done, width=30), self._headline())
         return Group(table, foot)
 
-    def left(self):
-        """End of a sentence about a stopped sweep: cases done, and how to resume."""
+    def left(self, resume=""):
+        """End of a sentence about a stopped sweep: cases done, and how to resume (default: as a sweep)."""
         if self.study is None:
             return "before any result was stored"
         done = len(self.study) - len(self.study.open_cases)
-        return f"after {done} of {len(self.study)} cases; resume with: tehl sweep {self.study.path}"
+        return f"after {done} of {len(self.study)} cases; {resume or f'resume with: tehl sweep {self.study.path}'}"
 
 
 def changes_words(record):

@@ -66,7 +66,7 @@ def traction(
                                   changes=changes, path=out, workers=workers, threads_per_worker=threads_per_worker,
                                   progress=live)
         except KeyboardInterrupt as stop:
-            raise Interrupted(f"{stopped(stop)} {live.left()}") from None
+            raise Interrupted(f"{stopped(stop)} {live.left('repeat the command to resume')}") from None
     if figure:
         say(str(found.plot(**vars(page))))
     print_json(found.to_dict()) if as_json else print_traction(found)
