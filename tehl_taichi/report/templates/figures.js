@@ -82,12 +82,23 @@
     });
   };
 
+  /* figures as wide as their place, whenever that changes: also before the next picture of the page */
+  const fit = new ResizeObserver(seen => {
+    if (document.documentElement.classList.contains("print")) return;
+    for (const {target} of seen) {
+      const drawn = target.querySelector(".main-svg");
+      if (drawn && Math.abs(drawn.getBoundingClientRect().width - target.clientWidth) > 1)
+        Plotly.relayout(target, {autosize: true});
+    }
+  });
+
   const start = async () => {
     const code = document.createElement("script");
     code.textContent = await unpacked("library");
     document.head.append(code);
     const specs = JSON.parse(await unpacked("figures"));
     for (const place of plots()) await draw(place, specs[place.dataset.figure]);
+    for (const place of plots()) fit.observe(place);
     for (const box of document.querySelectorAll("[data-slides]")) await slide(box, specs[box.dataset.slides]);
     dark.addEventListener("change", () => repaint(() => ({})));
     addEventListener("beforeprint", toPaper);
