@@ -76,8 +76,10 @@ def test_the_kind_of_contact_decides_the_unit_of_the_load():
 
 def test_sweeps_have_numbers():
     """The coordinate of a study is in the declared unit."""
-    found = plan(tehl.scene("gear"), {"temperature": "343 K,80", "load": ["900 N/mm", 1e6]})
+    found = plan(tehl.scene("gear"), {"temperature": "343 K,80 C", "load": ["900 N/mm", 1e6]})
     assert found.coordinate("temperature")[1] == [69.85, 80] and found.coordinate("load")[1] == [9e5, 1e6]
+    with pytest.raises(tehl.SceneError, match="343 K,80: 80 has no unit; give each number its unit"):
+        plan(tehl.scene("gear"), {"temperature": "343 K,80"})  # 80 K, or 80 deg C?
     together = plan(tehl.scene("gear"), {("height", "width"): [("1 um", "0.1 mm"), ("2 um", "0.2 mm")]})
     assert together.changes(1) == {"height": 2e-6, "width": 2e-4}
     assert plan(tehl.scene("gear"), {"oil.name": "mineral-vg220,mineral-vg320"}).coordinate("oil.name")[1][0] == "mineral-vg220"
