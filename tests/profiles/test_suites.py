@@ -131,7 +131,7 @@ def test_the_bench_writes_what_the_target_error_reads():
     settings = {"family": "settings, 128 columns", "columns": 128, "quantity": "h_min_m", "error": 1.0, "setting": "as it is"}
     found = accuracy.grid_errors([*rows, settings])
     assert found == {"passage": {"columns_per_width": pytest.approx(4.0 / (200e-6 / 0.3622e-3), rel=1e-3),
-                                 "errors": {64: 2.0 / 64, 128: 2.0 / 128}}}
+                                 "errors": {64: 0.031, 128: 0.016}}}
     assert found.keys() <= grid_for_error.families().keys() and found["passage"].keys() \
         == grid_for_error.families()["passage"].keys()
 

@@ -66,8 +66,10 @@ def test_the_worst_of_several_features_is_named():
 
 
 def test_too_narrow_for_any_grid():
-    said = sentence(lambda: on(256, 64, Feature(width=1e-7), **{"grid.x_min": -20.0}))
-    assert "no grid is fine enough" in said and "feature.width of 0.00012 m is enough" in said
+    said = sentence(lambda: on(256, 64, Feature(width=1e-6), **{"grid.x_min": -20.0, "zoom.factor": 2}))
+    assert "no grid is fine enough" in said and "feature.width of 6.1e-05 m is enough" in said
+    said = sentence(lambda: on(256, 64, Feature(width=1e-6), **{"grid.x_min": -20.0}))
+    assert said.endswith("--zoom 8 with --grid 3904x192")
 
 
 def test_lines_and_steady_scenes_need_no_rows():
