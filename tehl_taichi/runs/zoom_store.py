@@ -7,6 +7,7 @@ from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.runs import single_run
 from tehl_taichi.runs.progress import Progress
 from tehl_taichi.runs.stored_run import Run
+from tehl_taichi.scene import refinement
 from tehl_taichi.values.quantity import AUTO
 
 
@@ -35,6 +36,9 @@ def _zoom_as_needed(path, threads, progress):
 
     done = single_run.open(path)
     for factor in zoom_need.factors(done):
+        if why := refinement.no_window(done.scene, factor):
+            progress.say(f"no window: {why}")
+            break
         progress.say(f"{zoom_need.reason(done)}: a window of factor {factor}")
         done = zoom(path, factor, threads=threads, progress=progress)
         if zoom_need.settled(done):

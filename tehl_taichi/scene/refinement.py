@@ -2,6 +2,7 @@
 
 import math
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.values.coded_text import Option, grid_option
 
 
@@ -34,8 +35,18 @@ def along(scene):
 def zoom_option(scene, work):
     """'--zoom 4 (6 times the work)', where a fine window may be added to a passage; else "". work(factor): of the run with a
     window over that of the run alone."""
-    possible = scene.transient and not scene.zooms and scene.output.every == 1
-    return _with_work(Option("--zoom 4", "a window four times as fine"), math.ceil(work(4))) if possible else ""
+    if not scene.transient or scene.zooms or no_window(scene, 4):
+        return ""
+    return _with_work(Option("--zoom 4", "a window four times as fine"), math.ceil(work(4)))
+
+
+def no_window(scene, factor):
+    """Reason why a scene cannot have a window of this factor; "" where it can."""
+    try:
+        scene.replace(**{"zoom.factor": factor})
+    except SceneError as error:
+        return str(error)
+    return ""
 
 
 def _with_work(option, work):

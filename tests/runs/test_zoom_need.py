@@ -7,6 +7,7 @@ import pytest
 import tehl_taichi as tehl
 from tehl_taichi.runs import single_run, zoom_need, zoom_store
 from tehl_taichi.runs.progress import Progress
+from tehl_taichi.scene import refinement
 
 SCENE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid.nx": 256})
 
@@ -65,6 +66,18 @@ def test_a_run_without_need_stays_as_it_is(monkeypatch):
     monkeypatch.setattr(single_run, "open", lambda path: before, raising=False)
     assert zoom_store.zoom("a.zarr", "auto", progress=progress) is before
     assert progress.texts == ["this grid resolves the passage: no window is needed"]
+
+
+@pytest.mark.parametrize("name", ["rough-pair", "pitch-line"])
+def test_no_window_is_named_where_the_scene_cannot_have_one(name, monkeypatch):
+    description = tehl.scene(name)
+    assert (refinement.zoom_option(description, lambda factor: 5.2) == "") is bool(refinement.no_window(description, 4))
+    assert bool(refinement.no_window(description, 4)) is (name == "rough-pair")
+    if name == "rough-pair":
+        progress, before = Said(), finished(description, 0.8, None, monkeypatch)
+        monkeypatch.setattr(single_run, "open", lambda path: before, raising=False)
+        assert zoom_store.zoom("a.zarr", "auto", progress=progress) is before
+        assert len(progress.texts) == 1 and progress.texts[0].startswith("no window: ")
 
 
 def test_the_work_of_a_window_is_that_of_its_part_of_the_passage(monkeypatch):
