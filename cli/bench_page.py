@@ -27,8 +27,8 @@ def write(name, columns, rows, keys=0):
     among these stay. Raises StoreError."""
     from tehl_taichi.disk import files
 
-    before, after = _around(name)
-    old = _rows(name)[2:] if keys else []
+    before, now, after = _around(name)
+    old = _rows(now)[2:] if keys else []
     lines = [columns, ["---"] * len(columns), *_merged(old, [list(map(_cell, row)) for row in rows], keys)]
     table = "\n".join(f"| {' | '.join(line)} |" for line in lines)
     partly = " Other rows are of an earlier command." if len(lines) > len(rows) + 2 else ""
@@ -43,9 +43,8 @@ def _merged(old, new, keys):
     return [found.get(key, row) for key, row in zip(known, old)] + [row for row in new if tuple(row[:keys]) not in known]
 
 
-def _rows(name):
-    """Rows of cells of the table of a suite in its page, its names and rule first."""
-    text = of(name).read_text(encoding="utf-8").partition(f"<!-- bench: {name} -->")[2].partition(END)[0]
+def _rows(text):
+    """Rows of cells of the table in a text, its names and rule first."""
     lines = [line.strip()[1:-1] for line in text.splitlines() if line.startswith("|")]
     return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)] for line in lines]
 
@@ -55,7 +54,7 @@ def _cell(text):
 
 
 def _around(name):
-    """The page up to the mark at which the table of a suite begins, and from that at which it ends."""
+    """The page up to the mark at which the table of a suite begins, that table, and from the mark at which it ends."""
     from tehl_taichi.disk import files
     from tehl_taichi.errors import StoreError
 
@@ -63,10 +62,10 @@ def _around(name):
     with files.blamed(page, "cannot read"):
         text = files.text(page)
     before, begins, rest = text.partition(mark)
-    _, ends, after = rest.partition(END)
+    now, ends, after = rest.partition(END)
     if not (begins and ends):
         raise StoreError(f"{page} has no table of this suite: {mark} ... {END}")
-    return before + mark, END + after
+    return before + mark, now, END + after
 
 
 def _caption(more=""):

@@ -103,7 +103,7 @@ def passage_values(description):
     from tehl_taichi.fatigue import assessment
     from tehl_taichi.march.passage import march
 
-    shots = Shots(march(description))
+    shots = Snapshots(march(description))
     return _of_passage(description, shots, assessment.run(description.replace(**OF_A), shots))
 
 
@@ -115,17 +115,9 @@ def zoomed_values(description, factor):
     from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
 
     description = description.replace(**{"zoom.factor": factor, "zoom.from_x": -np.inf})
-    shots = Shots(march(description))
+    shots = Snapshots(march(description))
     zoomed = ZoomedReader(shots, passages(description, shots, [factor])[0], description.symmetric)
     return _of_passage(description, zoomed, assessment.run(description.replace(**OF_A), zoomed, alone=False))
-
-
-class Shots(Snapshots):
-    """Snapshots in memory with their numbers."""
-
-    def scalar(self, name):
-        """Values of a number, one per entry."""
-        return np.array([one.scalars[name] for one in self.items])
 
 
 def _of_passage(description, reader, searched):

@@ -47,6 +47,10 @@ class Snapshots:
         """{name: (nx+1, ny+1) array} of entry n."""
         return {name: self.items[n].fields[name] for name in names}
 
+    def scalar(self, name):
+        """Values of a number, one per entry."""
+        return np.array([s.scalars[name] for s in self.items])
+
 
 def run(scene, reader, progress=None, until=None, alone=True):
     """The SearchResult of the worse body of a passage, with that of the other (of those that the scene has `judged`).

@@ -27,7 +27,7 @@ def _lines(store, window):
     moments, n = Moments(store), window.worst
     if (row := window.row(store.y[moments.line])) is None:
         return None
-    fine, (low, high) = window.fields(n), (window.columns(n)[0], window.columns(n)[-1])
+    fine, (low, high) = window.fields(n, SHOWN), (window.columns(n)[0], window.columns(n)[-1])
     near = (store.x >= low) & (store.x <= high)
     panels: list[tuple] = []
     for title, factor, names in FIELDS:
@@ -50,8 +50,8 @@ def _maps(store, window):
     if window.y.size == 1:
         return ()
     moments, n = Moments(store), window.worst
-    x, found = window.columns(n) / moments.a, window.fields(n)
-    return tuple(_map(moments, x, window.y, name, found[name]) for name in ("pressure", "film"))
+    x, found = window.columns(n) / moments.a, window.fields(n, ("pressure", "film"))
+    return tuple(_map(moments, x, window.y, name, values) for name, values in found.items())
 
 
 def _map(moments, x, rows, name, values):

@@ -17,8 +17,7 @@ def reason(run):
     """Reason why a run needs a window, in words; "" where it needs none."""
     if few := few_cells(run.scene):
         return f"a feature of {few[0]:.2g} cells"
-    place = coarse_runs.resolved(run.scene, run.store, run.store.scalar)
-    if place is not None:
+    if (place := until(run.store)) is not None:
         return f"pressure peaks of a few cells behind {place:.2f} a"
     errors = run.summary["transient"].get("error", {})
     unknown = [words for key, words in DECIDING.items() if key in errors and errors[key] is None]
@@ -30,12 +29,21 @@ def work(store, factor):
     from tehl_taichi.march.zoom.window import Window
     from tehl_taichi.march.zoom.zoomed_passage import LEAD
 
-    scene, (begin, end) = store.scene, store.scene.path
-    until = None if few_cells(scene) else coarse_runs.resolved(scene, store, store.scalar)
-    part = 1.0 if until is None else min((end - until + LEAD) / (end - begin), 1.0)
+    scene, (begin, end), place = store.scene, store.scene.path, until(store)
+    part = 1.0 if place is None else min((end - place + LEAD) / (end - begin), 1.0)
     cells = scene.grid.nx * max(scene.rows, 1)
-    windows = [Window.of(scene, one) for one in (factor // 2, factor) if one > 1]
+    windows = [Window.of(scene, one) for one in levels(factor)]
     return 1.0 + part * SLOWER * sum(w.factor * w.nx * max(w.ny, 1) for w in windows) / cells
+
+
+def levels(factor):
+    """Factors of the windows of a run: half of its own, for the error bars, and its own."""
+    return [one for one in (factor // 2, factor) if one > 1]
+
+
+def until(store):
+    """Position (a) of the feature up to which a run needs no window; None where it needs one everywhere, or nowhere."""
+    return None if few_cells(store.scene) else coarse_runs.resolved(store.scene, store, store.scalar)
 
 
 def few_cells(scene):

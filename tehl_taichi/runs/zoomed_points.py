@@ -26,9 +26,7 @@ def _deepest(found):
     """Depth down to which the window may matter: there the stress of the run is much less than its largest."""
     if found.findley_stress_under_row is None:
         return np.inf
-    depths, under = found.row_depths, found.findley_stress_under_row.max(axis=1)
-    if found.limit_under_row is not None:
-        under = under / found.limit_under_row
+    depths, under = found.row_depths, found.index("findley_stress_under_row").max(axis=1)
     last = max(np.flatnonzero(under >= BELOW * under.max())[-1], LEAST,
                np.searchsorted(depths, max(_worst_depths(found.numbers))))
     return float(depths[last + 1] * (1 + 1e-9)) if last + 1 < depths.size else np.inf
@@ -106,8 +104,13 @@ def completed(summaries, run):
 
 def _with(summary, run):
     out = {**summary, **{key: run[key] for key in KEPT if key in run}}
-    if "below" in summary and "statistics" in run.get("below", {}):
-        out["below"] = {**summary["below"], "statistics": run["below"]["statistics"]}
-    if "searched_m" in summary.get("below", {}) and "searched_m" in run.get("below", {}):
-        out["below"]["searched_m"] = [summary["below"]["searched_m"][0], run["below"]["searched_m"][1]]
+    if "below" in summary:
+        out["below"] = _with_below(summary["below"], run.get("below", {}))
+    return out
+
+
+def _with_below(deep, run):
+    out = {**deep, **({"statistics": run["statistics"]} if "statistics" in run else {})}
+    if "searched_m" in deep and "searched_m" in run:
+        out["searched_m"] = [deep["searched_m"][0], run["searched_m"][1]]
     return out

@@ -51,16 +51,12 @@ def refined(saved, passage, alone, domain, progress):
 def levels(saved, progress):
     """The ZoomLevels of the run in the store `saved`, coarsest first."""
     scene = saved.scene
-    factors = [factor for factor in (scene.zoom.factor // 2, scene.zoom.factor) if factor > 1]
+    factors = zoom_need.levels(scene.zoom.factor)
     progress.stage(ZOOM, 0, len(saved) - 1)
-    found = zoomed_passage.passages(scene, saved, factors, functools.partial(progress.stage, ZOOM), _until(saved))
+    found = zoomed_passage.passages(scene, saved, factors, functools.partial(progress.stage, ZOOM),
+                                    zoom_need.until(saved))
     saved.kept_states = None
     return [ZoomLevel(one, ZoomedReader(saved, one, scene.symmetric)) for one in found]
-
-
-def _until(saved):
-    """Position (a) of the feature up to which the run needs no window; None where it needs one everywhere."""
-    return None if zoom_need.few_cells(saved.scene) else coarse_runs.resolved(saved.scene, saved, saved.scalar)
 
 
 def search(saved, found, alone, progress):

@@ -17,7 +17,7 @@ class ZoomWindow:
     def __init__(self, store):
         self.store, self.entries = store, store.map("zoom_entry").astype(int)
         self.lefts, self.x, self.y = (store.map(f"zoom_{name}") for name in ("left", "x", "y"))
-        self.place = {int(entry): n for n, entry in enumerate(self.entries)}
+        self.place, self.read = {int(entry): n for n, entry in enumerate(self.entries)}, {}
 
     @classmethod
     def of(cls, store):
@@ -27,7 +27,7 @@ class ZoomWindow:
     def __contains__(self, entry):
         return int(entry) in self.place
 
-    @property
+    @cached_property
     def names(self):
         """Names of its fields, as those of the run are named."""
         return [name.removeprefix(FIRST) for name, array in self.store.metadata.items()
@@ -38,22 +38,25 @@ class ZoomWindow:
         """Entry of the run at which the window has its largest pressure."""
         return int(self.entries[np.argmax(self.extremes("p_max_Pa"))])
 
-    @cached_property
-    def _all(self):
-        return {name: self.store.map(FIRST + name) for name in self.names}
+    def _moments(self, name):
+        """A field at all of its entries, read once."""
+        if name not in self.read:
+            self.read[name] = self.store.map(FIRST + name)
+        return self.read[name]
 
     def columns(self, entry):
         """Places of its columns (m) at an entry of the run that it has."""
         return self.lefts[self.place[int(entry)]] + self.x
 
-    def fields(self, entry):
-        """{name: (columns, rows)} at an entry of the run that it has, SI."""
-        return {name: values[self.place[int(entry)]] for name, values in self._all.items()}
+    def fields(self, entry, names=None):
+        """{name: (columns, rows)} of those of these fields that it has (default: all) at an entry of the run, SI."""
+        shown = self.names if names is None else [name for name in names if name in self.names]
+        return {name: self._moments(name)[self.place[int(entry)]] for name in shown}
 
     def extremes(self, name):
         """One of EXTREMES at each of its entries, of the window alone."""
         field, extreme = EXTREMES[name]
-        return extreme(self._all[field], axis=(1, 2))
+        return extreme(self._moments(field), axis=(1, 2))
 
     def row(self, y):
         """Number of its row at a row of the run, at y (m); None where it has none there."""

@@ -16,7 +16,8 @@ def found(at, deep, rough=False, surface="a"):
     """A search whose stress is largest at this column and row, below it at that column."""
     stress, under = np.full((X.size, Y.size), 1e8), np.full((DEPTHS.size, X.size), 3e8)
     stress[at], under[2, deep] = 4e8, 6e8
-    summary = {"surface": surface, "rough": rough, "Fi_max": 1.0, "statistics": 1, "below": {"Fi_max": 1.5, "statistics": 2}}
+    summary = {"surface": surface, "rough": rough, "sigma_eF_Pa": 4e8, "Fi_max": 1.0, "statistics": 1,
+               "below": {"Fi_max": 1.5, "statistics": 2}}
     return tehl.SearchResult(summary, feature_frame_x=X, feature_frame_y=Y, findley_stress=stress, fatigue_depth=DEPTHS,
                              findley_stress_under_row=under)
 

@@ -12,6 +12,7 @@ from tehl_taichi.march.zoom.outside_gap import OutsideGap
 from tehl_taichi.march.zoom.two_frames import TwoFrames
 from tehl_taichi.march.zoom.window_heat import WindowHeat
 from tehl_taichi.march.zoom.window_levels import WindowLevels
+from tehl_taichi.march.zoom.zoomed_reader import EXTREMES
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.isothermal import OneTemperature
 from tehl_taichi.pressure.newton import RISES, PressureSolver
@@ -20,7 +21,6 @@ from tehl_taichi.values.refining import Refining
 
 SHEAR = "traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b"
 GUESSED = 2  # order of the guess of the pressure
-EXTREMES = {"p_max_Pa": max, "h_min_m": min}
 PAD = 4  # cells of the run beside the window whose history is kept: more than it moves and paths reach in ORDER steps
 
 
@@ -105,7 +105,7 @@ class WindowPassage:
     def numbers(self, step):
         """{name: number} of all its moments since the step before: largest pressure and smallest film of the window alone,
         highest temperatures of the run with it."""
-        found = {name: reduce(one[name] for one in self.extremes) for name, reduce in EXTREMES.items()}
+        found = {name: extreme([one[name] for one in self.extremes]) for name, (_, extreme) in EXTREMES.items()}
         outside = self.heat.outside(self.base.at(step).T) if self.heat else {}
         return {**found, **{name: max(there, *(one[name] for one in self.extremes)) for name, there in outside.items()}}
 

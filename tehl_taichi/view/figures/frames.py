@@ -59,7 +59,7 @@ class Frames:
         """({field: least}, {field: largest}) of all entries; of the film as much as there is in the contact."""
         ends: dict[str, list[float]] = {name: [] for name in self.fields}
         for n in self.entries:
-            finer = self.finer.fields(n) if self.finer and n in self.finer else {}
+            finer = self.finer.fields(n, self.fields) if self.finer and n in self.finer else {}
             for name, values in self.store.fields(n, self.fields).items():
                 parts = [values, finer[name]] if name in finer else [values]
                 ends[name] += [float(of(part)) for part in parts for of in (np.min, np.max)]
@@ -145,7 +145,7 @@ class FrameWindow:
         """Entry n of the run, where it has a window."""
         if n not in self.window:
             return
-        x, found = self.window.columns(n) / self.frames.moments.a, self.window.fields(n)
+        x, found = self.window.columns(n) / self.frames.moments.a, self.window.fields(n, self.frames.fields)
         for line, field, factor in self.lines if self.row is not None else []:
             self.frames._draw(line, data=(x, found[field][:, self.row] * factor))
         if self.patch:

@@ -16,7 +16,7 @@ class ZoomLines:
         """Draw an entry of the run into the axes of pressure (GPa) and film (µm) over x/a. Returns whether it has a window."""
         if self.line is None or entry not in self.window:
             return False
-        x, found = self.window.columns(entry) / a, self.window.fields(entry)
+        x, found = self.window.columns(entry) / a, self.window.fields(entry, ("pressure", "film"))
         for ax, values in zip(axes, (found["pressure"] / 1e9, found["film"] * 1e6)):
             ax.plot(x, values[:, self.line], color=colour, lw=THICK, marker=".", ms=NODES, zorder=4)
         return True

@@ -17,12 +17,11 @@ def zoom(page, moments):
     """Pressure, film and its temperature in the window."""
     store, window = moments.store, ZoomWindow.of(moments.store)
     n = window.worst if moments.at is None or moments.one() not in window else moments.one()
-    found = window.fields(n)
-    shown = [name for name in SHOWN if name in found]
+    found = window.fields(n, SHOWN)
     x, (y, _) = window.columns(n) / moments.a, mirrored(window.y / moments.a, window.y[None])
-    height = np.ptp(y) / np.ptp(x) * page.inches / len(shown) + 0.2 * page.text  # more than enough
-    figure, axes = page.figure(1, len(shown), height, equal=True, sharex=True, sharey=True)
-    for ax, name in zip(axes[0], shown):
+    height = np.ptp(y) / np.ptp(x) * page.inches / len(found) + 0.2 * page.text  # more than enough
+    figure, axes = page.figure(1, len(found), height, equal=True, sharex=True, sharey=True)
+    for ax, name in zip(axes[0], found):
         title, factor, unit, colours = SHOWN[name]
         values = mirrored(window.y, found[name] * factor)[1]
         cut = {"vmax": min(values.max(), ROOM * factor * np.median(found[name]))} if name == "film" else {}

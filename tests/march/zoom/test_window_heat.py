@@ -13,17 +13,10 @@ LINE = tehl.scene("gear").replace(**{"feature.length": float("inf"), "grid.nx": 
 FASTER = {"operation.srr": 0.12, "feature.surface": "b"}
 
 
-class InMemory(Snapshots):
-    """A run as zooms read it."""
-
-    def scalar(self, name):
-        return np.array([shot.scalars[name] for shot in self.items])
-
-
 def zoomed(factor, **changes):
     """(run, its passage with a window of a factor)."""
     scene = LINE.replace(**changes)
-    run = InMemory(tehl.march(scene))
+    run = Snapshots(tehl.march(scene))
     return run, passages(scene, run, [factor])[0]
 
 
@@ -64,7 +57,7 @@ def test_a_window_four_times_as_fine_gives_what_a_run_four_times_as_fine_does(sr
     changes = {"operation.srr": srr, "feature.height": feature, "grid.nx": 128, "time.x_end": 1.5}
     run, found = zoomed(4, **changes)
     four = {**changes, "grid.nx": 512}
-    fine = [InMemory(tehl.march(LINE.replace(**{**four, "time.courant": courant}))) for courant in (1.0, 0.75)]
+    fine = [Snapshots(tehl.march(LINE.replace(**{**four, "time.courant": courant}))) for courant in (1.0, 0.75)]
     reader = ZoomedReader(run, found, True)
     for name in ("p_max_Pa", "film_max_C", "h_min_m"):
         extreme = np.min if name == "h_min_m" else np.max

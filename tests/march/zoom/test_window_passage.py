@@ -23,13 +23,6 @@ LINE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid
 PART = {"time.x_end": 0.2}  # of the path
 
 
-class InMemory(Snapshots):
-    """A run as zooms read it."""
-
-    def scalar(self, name):
-        return np.array([shot.scalars[name] for shot in self.items])
-
-
 @pytest.fixture(scope="module")
 def runs():
     """{(SRR, surface, columns): run of the line} as they are needed."""
@@ -39,7 +32,7 @@ def runs():
         if (srr, surface, columns) not in kept:
             scene = LINE.replace(**PART, **{"operation.srr": srr, "feature.surface": surface, "grid.nx": columns})
             scene = scene.replace(**{"thermal.on": False}) if srr else scene
-            kept[srr, surface, columns] = scene, InMemory(tehl.march(scene))
+            kept[srr, surface, columns] = scene, Snapshots(tehl.march(scene))
         return kept[srr, surface, columns]
 
     return of
@@ -112,7 +105,7 @@ def sunk():
                for name, depth in (("a", 0.3e-6), ("b", 0.1e-6))]
     for columns in (128, 256):
         scene = LINE.replace(**PART, **{"thermal.on": False, "operation.srr": -0.12, "grid.nx": columns})
-        reader = InMemory(march(scene, changes=changes))
+        reader = Snapshots(march(scene, changes=changes))
         reader.surface_changes = changes
         found.append((scene, reader))
     return found
