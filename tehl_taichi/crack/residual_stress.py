@@ -7,13 +7,13 @@ import numpy as np
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.coerce import plain
+from tehl_taichi.values.column_mark import column_mark
 from tehl_taichi.values.quantity import Number
 
 LARGEST = 5e9  # Pa
 STRESS = Number("", "Pa", -LARGEST, LARGEST, usual=-2e8, least=1e5)
 DEPTH = Number("", "m", 0.0, 0.03, usual=1e-4)
 WANTED = "lines with depth in m and stress in Pa; a header line may name the columns"
-MARKS = (";", "\t", ",")  # what may stand between the two, the first that the file has; else blanks
 
 
 class ResidualStress:
@@ -62,7 +62,7 @@ def _words(text):
     """[(line, its columns)] of what says something."""
     lines = [(n, line.split("#")[0].strip()) for n, line in enumerate(text.splitlines(), 1)]
     lines = [(n, line) for n, line in lines if line]
-    mark = next((mark for mark in MARKS if any(mark in line for _, line in lines)), None)
+    mark = column_mark("".join(line for _, line in lines))
     split = (lambda line: next(csv.reader([line], delimiter=mark))) if mark else str.split
     return [(n, [word.strip() for word in split(line)]) for n, line in lines]
 

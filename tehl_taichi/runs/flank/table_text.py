@@ -7,8 +7,8 @@ import re
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values import units
+from tehl_taichi.values.column_mark import column_mark
 
-MARKS = ";", "\t", ","  # between two columns: the first that the line of names has
 COMMA = re.compile(r"\s*([-+]?\d*),(\d+(?:[eE][-+]?\d+)?)\s*")  # a decimal one
 BRACKETS = re.compile(r"(.+?)\s*[\[(](.+)[\])]\s*")
 SPEEDS = "u_a", "u_b"  # whose names have m_s in place of m_per_s
@@ -23,7 +23,7 @@ def rows(path):
     Raises SceneError."""
     try:
         text = files.content(path).decode("utf-8-sig")
-        mark = next((mark for mark in MARKS if mark in text.partition("\n")[0]), ",")
+        mark = column_mark(text.partition("\n")[0]) or ","
         with io.StringIO(text, newline="") as file:
             lines = [[value.strip() for value in line] for line in csv.reader(file, delimiter=mark, skipinitialspace=True)]
     except (OSError, UnicodeDecodeError, csv.Error) as error:

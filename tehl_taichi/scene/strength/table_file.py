@@ -12,10 +12,10 @@ from tehl_taichi.scene.strength.profiles import PROFILES
 from tehl_taichi.scene.strength.table import DEPTH, HARDNESS, KAPPA, LIMIT, RESIDUAL, YIELD
 from tehl_taichi.values.checks import nearest
 from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.column_mark import column_mark
 from tehl_taichi.values.quantity import Number
 
 MOST, LARGEST = 500, 1e6  # rows, bytes
-MARKS = (";", "\t", ",")  # what may stand between two columns, the first that the line of names has; else a single column
 STRESS = {"Pa": 1.0, "MPa": 1e6}
 # {quantity of a column: (its name in SI units, {unit: factor}, declaration in SI units)}
 KNOWN = {"depth": (DEPTH, {"m": 1.0, "mm": 1e-3, "um": 1e-6}, Number("", "m", 0.0, 0.03, usual=5e-4)),
@@ -65,7 +65,7 @@ def _rows(where, content):
     """Lists of words, without empty lines and those that begin with #. Raises SceneError."""
     lines = [line for line in content.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     try:
-        mark = next((mark for mark in MARKS if lines and mark in lines[0]), ",")
+        mark = column_mark("".join(lines[:1])) or ","
         rows = [[_cell(cell, mark) for cell in row] for row in csv.reader(io.StringIO("\n".join(lines)), delimiter=mark)]
     except csv.Error as error:
         raise SceneError(f"{where} cannot be read: {error}") from None
