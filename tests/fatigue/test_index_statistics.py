@@ -87,6 +87,7 @@ def test_bars_of_a_distribution_have_a_part_of_both_steps():
     assert size([0.7, 1.2, 1.21]) == pytest.approx(0.25) and size([0.7, 1.2, 1.21], 1.0) == pytest.approx(0.5)
     assert size([1.2, 1.21, 1.0]) == pytest.approx(1.5 * 0.21) == size([1.21, 1.0])
     assert size([0.02, 0.02, 0.0], blur=0.1) == pytest.approx(0.15)  # a share of none is known as well as others
+    assert size([0.0, 0.0, 0.0], blur=0.1) == pytest.approx(0.15)  # also where all grids have none
     assert size([0.1, 1.0, 0.02]) > 0.02  # of other numbers such a change says that nothing is known
     assert bar([GridReading(1.0), GridReading(0.02)])[0] is None
 
@@ -95,6 +96,12 @@ def test_bars_of_a_distribution_have_a_part_of_both_steps():
 def test_the_top_of_a_surface_is_the_least_known(key, depth, part):
     found = coarse_runs._spread_reading({"p99": 1.2, "median": 0.7, "points": 50, **depth}, key)
     assert found.spread == part and found.blur == 0
+
+
+@pytest.mark.parametrize("p99, share, blurred", [(0.96, 0.0, True), (0.3, 0.0, False), (0.3, 0.02, True)])
+def test_no_point_above_1_is_certain_only_far_from_1(p99, share, blurred):
+    reading = coarse_runs._spread_reading({"share_above_1": share, "p99": p99, "points": 50}, "share_above_1")
+    assert (reading.blur > 0) == blurred
 
 
 def test_coarse_grids_take_the_waves_that_they_resolve():

@@ -36,6 +36,7 @@ MISES = "von_mises_max_Pa"  # of the von Mises stress
 CONTACT, AREA = "contact_load_fraction_max", "contact_area_share_max"
 PART = 0.1  # a
 FEW = 4 / 3  # points; a bar has 1.5 times as many
+FAR = 0.5  # index, its 99th percentile on a grid: below it no finer grid has points above 1
 TOP, REST = 1.0, 0.5  # GridReading.spread of the 99th percentile at the surface, which short waves raise, and of all others
 # of the run-in
 RUN_IN = "surface_change_max_m", "height_after_m", "plastic_strain_max", "residual_min_Pa", "residual_max_Pa"
@@ -109,8 +110,9 @@ def _reading(entry, scalar, scene):
 
 
 def _spread_reading(part, key):
-    """Reading of a number of a distribution; a share of zero may be off by two of its points."""
-    blur = FEW / part["points"] if key == "share_above_1" else 0.0
+    """Reading of a number of a distribution; a share may be off by two of its points, one of none only with an index near 1."""
+    uncertain = key == "share_above_1" and (part[key] > 0 or part["p99"] > FAR)
+    blur = FEW / part["points"] if uncertain else 0.0
     return GridReading(float(part[key]), blur=blur, spread=TOP if key == "p99" and "depth_m" not in part else REST)
 
 

@@ -82,7 +82,7 @@ def bar(readings):
     before = known[-2]
     if last.positive and last.value == 0 and not last.place:  # a film that carries all here does so on finer grids, too
         return 0.0, ""
-    if all(abs(reading.value) < NOTHING for reading in known):
+    if all(abs(reading.value) < NOTHING and not reading.blur for reading in known):
         return 0.0, ""
     if last.place and all(abs(a - b) > MOVED * before.cell for a, b in zip(last.place, before.place)):
         return None, Reason("its place differs from that on the next coarser grid", "place")
