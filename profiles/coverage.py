@@ -28,7 +28,8 @@ FIXED = 0.3  # share of scenes with a domain that the user fixed
 STEADY = {"line, Moes": (12, (64, 128, 256)), "line": (10, (64, 128, 256)), "line, thermal": (10, (64, 128, 128, 256)),
           "flank, thermal": (8, (64, 128, 256)), "circle, Moes": (8, (64, 64, 128)), "circle": (3, (64, 64, 128)),
           "ellipse, Moes": (6, (64, 64, 128)), "ellipse": (3, (64, 64, 128)), "point, thermal": (2, (64,))}
-PASSAGES = {"ridge": 1, "ridge, thermal": 1, "asperity": 2, "asperity, thermal": 1, "ridge on ball": 1}
+PASSAGES = {"ridge": 1, "ridge, thermal": 1, "asperity": 2, "asperity, thermal": 1, "ridge on ball": 1,
+            "ridge, thick": 2, "ridge, thick, thermal": 1, "asperity, thick": 1}  # thick: films that a short inlet starves
 EXITS = {"exit": 10, "exit, thermal": 10}  # of endless features, in one dimension: grids four times as fine are within reach
 QUICK = {"line, Moes": (2, (64,)), "line": (1, (64,)), "line, thermal": (1, (64,)), "circle": (1, (32,))}
 ROUGH = {"rough": 6, "rough pair": 6, "rough pair, thermal": 2}  # line contacts; one surface ground across, or both
@@ -119,13 +120,14 @@ def _passage(rng, kind):
     if kind == "ridge on ball":
         return scene("ridge-on-ball").replace(**{"height": sign * _log_uniform(rng, 0.1e-6, 0.3e-6),
                                                  "srr": float(rng.choice([-0.5, 0.0, 0.5])), "grid.nx": 64, "grid.ny": 32})
-    ridge, thermal = kind.startswith("ridge"), "thermal" in kind
+    ridge, thermal, thick = kind.startswith("ridge"), "thermal" in kind, "thick" in kind
+    fast = {"hertz_pressure": _log_uniform(rng, 0.5e9, 0.9e9), "speed": _log_uniform(rng, 10, 25)} if thick else {}
     nx = int(rng.choice([128, 256])) if ridge else 64 if thermal else 128
     return scene("gear").replace(**{
         "feature.shape": "ridge" if ridge else "cosine", "height": sign * _log_uniform(rng, 0.3e-6, 1.5e-6),
         "width": _log_uniform(rng, 200e-6, 400e-6), "srr": float(rng.uniform(-0.5, 0.5)), "thermal.on": thermal,
         "hertz_pressure": _log_uniform(rng, 1e9, 2.2e9), "temperature": float(rng.uniform(60, 100)), "grid.nx": nx,
-        "grid.ny": nx // 4, "time.x_end": float("inf") if ridge else 0.0})
+        "grid.ny": nx // 4, "time.x_end": float("inf") if ridge else 0.0, **fast})
 
 
 def _rough(rng, kind, nx):

@@ -11,7 +11,8 @@ from tehl_taichi.view.figures.moments import WINDOW, Moments
 from tehl_taichi.view.figures.palette import GREY
 
 LEFT, RIGHT, TOP, BOTTOM = [0.0, 0.44], [0.56, 1.0], [0.6, 1.0], [0.0, 0.4]
-TITLES = "1 load: pressure (GPa) over x/a", "2 stress (MPa)", "3 strength (MPa)", "4 verdict: index Fi = stress/limit"
+TITLES = ("1 load: pressure (GPa) over x/a", "2 stress (MPa)", "3 strength, and the stress dotted (MPa)",
+          "4 verdict: index Fi = stress/limit")
 DEPTH = "below the surface (µm)"
 
 
@@ -42,7 +43,8 @@ def _layout():
     for n, (title, (x, y)) in enumerate(zip(TITLES, places), 1):
         number = str(n) if n > 1 else ""
         deep = {"autorange": "reversed"} if n > 1 else {"rangemode": "tozero"}
-        out[f"xaxis{number}"] = axis(title, domain=x, anchor=f"y{number}")
+        from_zero = {"rangemode": "tozero"} if n in (2, 3) else {}  # a limit that is constant is no edge of its panel
+        out[f"xaxis{number}"] = axis(title, domain=x, anchor=f"y{number}", **from_zero)
         out[f"yaxis{number}"] = axis(DEPTH if n > 1 else "", domain=y, anchor=f"x{number}", **deep)
     return out
 
