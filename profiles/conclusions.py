@@ -145,7 +145,7 @@ def _reader(by_name):
     """Function (kind, SRR, key) that gives (value, error)."""
     def get(kind, srr, key=("all", "whole")):
         r = by_name.get(f"{kind}, SRR {srr:+g}")
-        return (r.values[key], r.errors[key]) if r else (np.nan, np.nan)
+        return (r.values[key], r.errors[key]) if r and key in r.values else (np.nan, np.nan)
 
     return get
 
@@ -217,10 +217,11 @@ def file_name(name):
 
 
 def cells(row, columns=tuple(("all", window) for window in WINDOWS)):
-    """Text of a row's values with errors, MPa; the reason first where there are none."""
+    """Text of a row's values with errors, MPa; the reason first where there are none; "" for a column that it lacks."""
     if row.reason:
         return [row.reason] + [""] * (len(columns) - 1)
-    return [_with_error(row.values[key], row.errors[key], row.doubts.get(key, "")) + _at_depth(row, key) for key in columns]
+    return [_with_error(row.values[key], row.errors[key], row.doubts.get(key, "")) + _at_depth(row, key)
+            if key in row.values else "" for key in columns]
 
 
 def _at_depth(row, key):

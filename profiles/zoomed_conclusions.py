@@ -1,11 +1,12 @@
 """Conclusions over the whole passage, by runs with a fine window: Findley stress over fatigue.length of both bodies."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from tehl_taichi.profiles import conclusions
 from tehl_taichi.profiles.conclusions import ConclusionRow
-from tehl_taichi.profiles.passage_stresses import DEEP, DEPTHS
+from tehl_taichi.profiles.passage_stresses import DEEP, DEPTHS, LOADS
 
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.fatigue.pressure_alone import searched
@@ -14,6 +15,8 @@ from tehl_taichi.runs.single_run import completed
 GRID, QUICK_GRID = (256, 64), (32, 8)  # cells of the runs
 SURFACE, BELOW = ("all", "whole"), DEEP["whole"]
 COLUMNS = SURFACE, BELOW
+PARTS = "no thermal stress", "pressure"  # of the load, which count in runs of their own; at the surface
+BY_PARTS = tuple(f"{conclusions.DECIDE[0]}, SRR {srr:+g}" for srr in conclusions.SLIPS if srr)
 
 
 def run(folder, factor, quick=False, progress=None, threads=None):
@@ -23,8 +26,20 @@ def run(folder, factor, quick=False, progress=None, threads=None):
     for name, description in conclusions.cases(quick).items():
         if progress:
             progress(f"{name}: a window of factor {factor}")
-        out += rows(name, _sized(description, quick, factor), Path(folder), threads)
+        sized = _sized(description, quick, factor)
+        found = rows(name, sized, Path(folder), threads)
+        for loads in PARTS if name in BY_PARTS and not quick else ():
+            found = with_part(found, rows(f"{name}, {loads}", sized.replace(**LOADS[loads]), Path(folder), threads), loads)
+        out += found
     return out
+
+
+def with_part(rows, parts, loads):
+    """`rows` with the stresses at the surface of `parts`, the same bodies with a part of the load."""
+    key = loads, "whole"
+    pairs = [(row, part) for row, part in zip(rows, parts) if not (row.reason or part.reason)]
+    return [replace(row, values={**row.values, key: part.values[SURFACE]}, errors={**row.errors, key: part.errors[SURFACE]},
+                    doubts={**row.doubts, key: part.doubts.get(SURFACE, "")}) for row, part in pairs] or rows
 
 
 def rows(name, description, folder, threads=None):
@@ -62,9 +77,10 @@ def _error(part):
 
 def verdicts(rows, limit):
     """[(statement, verdict, figures)] over the whole passage, as of :func:`tehl_taichi.profiles.conclusions.verdicts`."""
-    return conclusions.verdicts(rows, limit, ("whole",), (SURFACE,))
+    loads = [(part, "whole") for part in PARTS if any((part, "whole") in row.values for row in rows)]
+    return conclusions.verdicts(rows, limit, ("whole",), (SURFACE, *loads))
 
 
 def page(rows, judged, description):
     """Markdown of the table and the verdicts."""
-    return conclusions.page(rows, judged, description, COLUMNS)
+    return conclusions.page(rows, judged, description, (SURFACE, *((loads, "whole") for loads in PARTS), BELOW))

@@ -51,7 +51,30 @@ def test_statements_are_those_of_the_whole_passage(tmp_path, monkeypatch):
     assert judged[f"the critical point lies below the surface: {CASE}; whole"] == "follows"
     assert judged[f"body b has a larger stress than body a (surface or below): {CASE}; whole"] == "follows"
     text = zoomed_conclusions.page(found, zoomed_conclusions.verdicts(found, 400e6), scene("gear"))
-    assert f"| {CASE} | a | 256x64 zoom 4 | 360 ± 4 | 720 ± 4 at 3 um |" in text
+    assert f"| {CASE} | a | 256x64 zoom 4 | 360 ± 4 |  |  | 720 ± 4 at 3 um |" in text
+
+
+def test_parts_of_the_load_count_in_runs_of_their_own(tmp_path, monkeypatch):
+    """Each with its scene and store; statements about the slip are made of each part."""
+    asked = {}
+
+    def run(description, store, **more):
+        asked[store.name] = description
+        part = 0.5 if not description.fatigue.shear else 0.7 if not description.fatigue.thermal_stress else 1.0
+        Fi = part * (1.0 if description.operation.srr < 0 else 1.2)
+        return types.SimpleNamespace(summary={"fatigue_by_surface": {name: body(name, Fi, 0.01) for name in "ab"}})
+
+    monkeypatch.setattr(zoomed_conclusions, "completed", run)
+    both = {name: one for name, one in conclusions.cases().items() if name in zoomed_conclusions.BY_PARTS}
+    monkeypatch.setattr(conclusions, "cases", lambda quick=False: both)
+    found = zoomed_conclusions.run(tmp_path, 4)
+    assert len(found) == 4 and len(asked) == 6
+    row = next(one for one in found if one.name == CASE and one.body == "a")
+    assert row.values[("pressure", "whole")] == 200e6 and row.errors[("no thermal stress", "whole")] == pytest.approx(4e6)
+    judged = {statement: verdict for statement, verdict, _ in zoomed_conclusions.verdicts(found, 400e6)}
+    assert judged["Fi(SRR -0.12) > Fi(SRR +0.12): asperity 1.5 um; pressure; whole"] == "does not follow"
+    assert f"| {CASE} | a | 256x64 zoom 4 | 400 ± 4 | 280 ± 4 | 200 ± 4 | 800 ± 4 at 3 um |" in zoomed_conclusions.page(
+        found, [], scene("gear"))
 
 
 def test_a_run_that_does_not_converge_gives_its_reason(tmp_path, monkeypatch):
