@@ -97,7 +97,7 @@ def figures(found):
     """Loads around the ring; pressure and slip over both contacts."""
     azimuth, loads = bearing_figure.azimuths(found)
     bars = {"type": "bar", "x": azimuth.tolist(), "y": loads.tolist(), "marker": {"color": colour(0)}, "showlegend": False}
-    layout = {"xaxis": axis("azimuth from the direction of the load (degrees)"), "yaxis": axis(bearing_figure.LOADS),
+    layout = {"xaxis": axis(bearing_figure.AZIMUTH), "yaxis": axis(bearing_figure.LOADS),
               "margin": {"l": 10, "r": 14, "t": 8, "b": 10}}
     panels: list[tuple] = [("Hertz pressure (GPa)", _lines(bearing_figure.pressures(found), 1), {})]
     if bearing_figure.has_slip(found):

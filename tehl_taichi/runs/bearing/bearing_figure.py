@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl_taichi.view.figures import palette
 
-LOADS, ACROSS = "load of the elements (N)", "y across rolling (mm)"
+LOADS, AZIMUTH, ACROSS = "load of the elements (N)", "azimuth from the load (degrees)", "y across rolling (mm)"
 POINTS = 201
 
 
@@ -28,7 +28,7 @@ def _loads(ax, bearing):
     azimuth, loads = azimuths(bearing)
     ax.bar(azimuth, loads, width=0.5 * 360 / len(loads), color=palette.LINES[0])
     ax.set_ylabel(LOADS)
-    ax.set_xlabel("azimuth from the direction of the load (degrees)")
+    ax.set_xlabel(AZIMUTH)
     ax.set_axisbelow(True)
     ax.grid(axis="y")
 

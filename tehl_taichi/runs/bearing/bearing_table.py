@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 from tehl_taichi.runs.bearing.ring_contacts import RINGS
-from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.runs.flank.flank_columns import PASSAGE, dig, error_of, title_of
 from tehl_taichi.values.digits import with_error
 from tehl_taichi.values.escape import cell
 
@@ -83,7 +83,7 @@ def slip_torque(bearing):
     return power, power / (abs(which["speed"] - which["outer_speed"]) * math.pi / 30)
 
 
-CONTACT, MOTION, FILM, PASSAGE = PARTS = ("contact", "motion", "film", "while the feature passes")
+CONTACT, MOTION, FILM, _ = PARTS = ("contact", "motion", "film", PASSAGE)
 ROWS = (
     RingRow(CONTACT, "contact", "contact", 1, "", of_ring("contact")),
     RingRow(CONTACT, "load_N", "load, N", 1, ".1f", of_ring("load_N")),
@@ -124,7 +124,7 @@ def tables(bearing):
         found = [(row.label, *(row.shown(bearing.record, ring) for ring in bearing.rings.values()))
                  for row in ROWS if row.part == part and _has(row, bearing)]
         if found:
-            out[part] = found
+            out[title_of(part, [bearing.record[ring]["summary"] for ring in RINGS])] = found
     return out
 
 

@@ -154,17 +154,14 @@ def tables(rows, of=COLUMNS, places=2):
             found = [column for column in of[:places] if column in columns] + found
         if found:
             heads, lines = [column.head for column in found], [[column.shown(*row) for column in found] for row in rows]
-            out[_title(title, rows)] = heads, lines
+            out[title_of(title, [row[-1] for row in rows])] = heads, lines
     return out
 
 
-def _title(title, rows):
-    """The title of a table; of steady contacts, which have stresses alone of a passage, another one."""
-    return "stress" if title == PASSAGE and not any(map(_passes, rows)) else title
-
-
-def _passes(row):
-    return any(dig(row[-1], part) for part in ("transient", "fatigue"))
+def title_of(part, summaries):
+    """Title of a part of the results; that of stresses is "stress" of steady contacts, whose load alone gives them."""
+    passes = any(dig(summary, key) for summary in summaries for key in ("transient", "fatigue"))
+    return "stress" if part == PASSAGE and not passes else part
 
 
 def csv_text(rows, of=COLUMNS):

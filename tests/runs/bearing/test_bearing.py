@@ -17,6 +17,7 @@ from tehl_taichi.report import bearing_page, document, place_sections
 from tehl_taichi.runs.bearing import bearing_figure, bearing_run, bearing_table
 from tehl_taichi.runs.bearing.bearing_source import bearing_source
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
+from tehl_taichi.runs.flank.flank_columns import PASSAGE
 from tehl_taichi.runs.open_results import kind
 from tehl_taichi.runs.sweep import case
 from tehl_taichi.scene import resolution, scene
@@ -114,6 +115,13 @@ def test_results_of_the_runs_come_into_record_and_tables(tmp_path, monkeypatch):
     assert not found.failed and all(one["converged"] for one in found.rings.values())
     rows = {label: (inner, outer) for label, inner, outer in bearing_table.tables(found)["film"]}
     assert rows["h_c, um"][0] == f"{found.rings['inner']['R_x_m'] * 1e6:.3f}"
+
+
+@pytest.mark.parametrize("summary, title", [({"von_mises": {"max_Pa": 1e9}}, "stress"),
+                                            ({"von_mises": {"max_Pa": 1e9}, "transient": {"p_max_Pa": 2e9}}, PASSAGE)])
+def test_stresses_of_smooth_contacts_are_of_no_feature(dry, summary, title):
+    rings = {name: {**one, "summary": summary} for name, one in dry.rings.items()}
+    assert list(bearing_table.tables(Bearing(dry.folder, {**dry.record, **rings})))[-1] == title
 
 
 def test_the_torque_of_the_slip_sums_the_contacts(dry):
