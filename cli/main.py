@@ -24,6 +24,7 @@ from tehl_cli import (
     traction_command,
 )
 from tehl_cli.entry import main
+from tehl_cli.key_as_option import with_hint
 
 from tehl_taichi.errors import Interrupted, stopped
 
@@ -54,13 +55,13 @@ class Commands(typer.core.TyperGroup):
 
 @contextlib.contextmanager
 def _printable():
-    """Escape unprintable letters in the messages of typer."""
+    """Escape unprintable letters in the messages of typer, and say which key of the scene an unknown option may be."""
     try:
         yield
     except USAGE as error:
         from tehl_taichi.values.escape import printable
 
-        error.message = printable(error.message, "\n")
+        error.message = printable(with_hint(error), "\n")
         raise
 
 

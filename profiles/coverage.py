@@ -196,7 +196,7 @@ def truth(description, values):
     if is_rough(description):  # the domain hardly moves what single peaks decide, and its runs take as long as the finer ones
         return values(on_finer(description))
     own, fine, far = (values(one) for one in (description, on_finer(description), on_longer(description)))
-    return {name: value + far[name] - own[name] for name, value in fine.items()}
+    return {name: value + far[name] - own[name] for name, value in fine.items() if name in own.keys() & far.keys()}
 
 
 def _row_of_start(description):
@@ -231,7 +231,7 @@ def judged(rows):
         part = "steady" if "answers" not in one else {"exit": "exit", "roug": "roughness"}.get(one["kind"][:4], "passage")
         own, found = _bars(one, part)
         out += [(part, _quantity(name), own[name].value, size, abs(one["finer"][name] - own[name].value))
-                for name, size in found.items() if _counts(part, name, own[name].value)]
+                for name, size in found.items() if name in one["finer"] and _counts(part, name, own[name].value)]
     return out
 
 

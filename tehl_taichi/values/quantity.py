@@ -119,6 +119,22 @@ class Count(Kind):
 
 
 @dataclass(frozen=True)
+class CountOf(Kind):
+    """One of some whole numbers."""
+
+    about: str
+    counts: tuple
+
+    def check(self, where, value):
+        if isinstance(value, bool) or checks.plain(value) not in self.counts:
+            raise checks.SceneError(f"{where} = {shown(value)} is not one of {self.allowed}")
+
+    @property
+    def allowed(self):
+        return ", ".join(map(str, self.counts))
+
+
+@dataclass(frozen=True)
 class Choice(Kind):
     """One of some words."""
 
@@ -215,6 +231,11 @@ def quantities(default, unit, about, low=-math.inf, high=math.inf, auto=False, u
 def count(default, about, low, high, multiple=1):
     """Field: a whole number."""
     return _declared(default, Count(about, low, high, multiple))
+
+
+def count_of(default, about, *counts):
+    """Field: one of some whole numbers."""
+    return _declared(default, CountOf(about, counts))
 
 
 def choice(default, about, words):

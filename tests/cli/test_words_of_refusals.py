@@ -392,3 +392,14 @@ def test_records_of_cases_that_were_edited_are_left_out(tmp_path):
         file.write_text(f"{json.dumps(lines[0])}\n{wrong}\n")
         assert [one["case"] for one in case_records.read(tmp_path / "s.zarr")] == [0]
         assert here("show", tmp_path / "s.zarr").returncode == 0
+
+
+@pytest.mark.parametrize("words, said", [
+    ("run gear --x-min -4", "No such option: --x-min; did you mean --set grid.x_min=...?"),
+    ("sweep gear --table x.csv", "No such option: --table; did you mean --set fatigue.table=... or --set oil.table=...?"),
+    ("run --lenght 4", "No such option: --lenght (Possible options: --height, --set)"),
+    ("show s.zarr --x-min 3", "No such option: --x-min ")])
+def test_keys_of_a_scene_typed_as_options_are_named(words, said):
+    done = here(*words.split())
+    assert done.returncode == 2
+    assert said in re.sub(r"[\s│]+", " ", done.stderr + done.stdout)

@@ -24,7 +24,7 @@ from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.sections import Body, Contact, Fatigue, Rheology, Thermal, Time
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import step_length, total_steps
-from tehl_taichi.values.quantity import Choice, Count, Numbers, Pairs, Switch, Text
+from tehl_taichi.values.quantity import Choice, Count, CountOf, Numbers, Pairs, Switch, Text
 
 GEAR = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16})
 SCENES = {
@@ -135,6 +135,8 @@ def others(kind, value):
         return [other for other in (True, False) if other != value]
     if isinstance(kind, Choice):
         return [word for word in kind.words if word != value]
+    if isinstance(kind, CountOf):
+        return [count for count in kind.counts if count != value]
     if isinstance(kind, Count):
         return [value + (kind.multiple if kind.multiple > 1 else 2), kind.low]
     if isinstance(kind, Numbers):
