@@ -75,7 +75,8 @@ def test_a_feature_off_the_axis_has_a_window_round_it():
 
 
 @pytest.mark.parametrize("changes, said", [
-    ({"zoom.factor": 3}, "zoom.factor = 3 is not one of 0, 2, 4, 8"), ({"zoom.factor": 16}, "zoom.factor = 16 is not one of 0, 2, 4, 8"),
+    ({"zoom.factor": 3}, "zoom.factor = 3 is not one of 0, 2, 4, 8"),
+    ({"zoom.factor": 16}, "zoom.factor = 16 is not one of 0, 2, 4, 8"),
     ({"zoom.factor": 0.5}, "zoom.factor = 0.5 is not one of"), ({"zoom.factor": True}, "zoom.factor = True is not one of"),
     ({"zoom.factor": 2, "output.every": 2}, "needs every step"),
     ({"zoom.factor": 2, "zoom.from_x": 0.5, "zoom.to_x": 0.2}, "must be less than to_x"),
