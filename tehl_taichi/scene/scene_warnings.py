@@ -95,6 +95,15 @@ def counted_twice(scene):
                "so the given residual stress counts twice; set limit_of = specimen, or no residual stress")
 
 
+def left_out_of_window(scene):
+    """Features that the window of a zoom does not ride with."""
+    followed = scene.reference.name
+    if scene.zooms and any(surface.name != followed for surface, _ in scene.passing):
+        other = "b" if followed == "a" else "a"
+        yield with_data(f"the window of --zoom rides with the features of surface {followed}; of those of surface {other} it "
+                        "resolves only what lies in it at the same time", surface=followed)
+
+
 def wide_domain(scene):
     """Warning: `auto` moved the inlet away from a thick film."""
     return filter(None, [domain.moved(scene)])
@@ -104,4 +113,4 @@ def wide_domain(scene):
 CHECKS = {resolution.warnings: "cells", domain_warnings.warnings: "room", thin_film.warnings: "film", oil_range.warnings: "oil",
           named_steels.doubts: "steel", cut_passage: "cut", thinned: "moments", doubtful_features: "feature",
           unusual: "unit", idle_keys.doubts: "idle", wide_domain: "inlet", stiff_oil.warnings: "frozen",
-          counted_twice: "residual"}
+          counted_twice: "residual", left_out_of_window: "window"}

@@ -9,6 +9,7 @@ import pytest
 
 from tehl_taichi.runs.summary import result_warnings
 from tehl_taichi.scene import BUILT_INS, scene, thin_film
+from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.oil import Oil
 
@@ -110,3 +111,13 @@ def test_doubts_reach_the_store_and_its_summary(taichi_cpu, tmp_path):
     assert any(hot in line for line in summary["warnings"]) and any("8.8 cells" in line for line in summary["warnings"])
     assert any("5 of 7" in line for line in summary["warnings"]) and summary["crowding"] == [7, 5]
     assert any("8.8 cells" in line for line in Store.open(tmp_path / "s.zarr").warnings)
+
+
+@pytest.mark.parametrize("surfaces, srr, warned", [("a", -0.12, False), ("ab", -0.12, True), ("aa", -0.12, False),
+                                                   ("ab", 2.0, False)])
+def test_a_window_rides_with_one_surface(surfaces, srr, warned):
+    """A feature of a surface at rest does not pass."""
+    features = tuple(Feature(shape="cosine", height=1e-6, width=200e-6, surface=name) for name in surfaces)
+    zoomed = dataclasses.replace(GEAR, features=features).replace(srr=srr, **{"zoom.factor": 4})
+    assert ("window" in [one.code for one in zoomed.warnings()]) == warned
+    assert "window" not in [one.code for one in zoomed.replace(**{"zoom.factor": 0}).warnings()]
