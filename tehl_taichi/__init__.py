@@ -123,7 +123,7 @@ def __dir__():
 
 
 class _Package(ModuleType):
-    """Importing the folder `march` would set `tehl_taichi.march` to it: the function of that name stays."""
+    """Module type that keeps the function `tehl_taichi.march` when the folder `march` is imported."""
 
     def __setattr__(self, name, value):
         if not (name in FUNCTIONS and isinstance(value, ModuleType)):

@@ -1,4 +1,4 @@
-"""The commit of this code, as far as it can be known. Nothing but the standard library: the build of a wheel runs this file."""
+"""Commit of this code, as far as known. Uses only the standard library, because the build of a wheel runs this file."""
 
 import functools
 import subprocess
@@ -10,18 +10,18 @@ UNKNOWN, CHANGED, LENGTH = "unknown", "+changes", 12
 
 @functools.lru_cache(maxsize=1)
 def commit():
-    """The commit's first LENGTH digits, with CHANGED behind them where tracked files differ from it; or UNKNOWN."""
+    """The commit's first LENGTH digits, followed by CHANGED if tracked files differ from it; or UNKNOWN."""
     return _written() or _of_checkout(FILE.parents[1]) or UNKNOWN
 
 
 def _written():
-    """Content of the file, if it was filled in."""
+    """Commit in the file, if the build filled it in."""
     text = FILE.read_text().strip() if FILE.is_file() else "$"
     return None if text.startswith("$") or text == UNKNOWN else text[:LENGTH] + CHANGED * text.endswith(CHANGED)
 
 
 def _of_checkout(root):
-    """Commit from git, where the package lies at the top of a checkout (not merely inside one, as in a virtual environment)."""
+    """Commit from git if the package lies at the top of a checkout (a virtual environment inside one does not count)."""
     if not (root / ".git").exists():
         return None
     try:

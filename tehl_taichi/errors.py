@@ -1,4 +1,4 @@
-"""Everything that tehl_taichi refuses or gives up is an Error: one or two sentences, and the exit code of the command line."""
+"""Errors of tehl_taichi: one or two sentences each, with the exit code of the command line."""
 
 FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 4
 
@@ -57,7 +57,7 @@ class Interrupted(Error):
 
 
 class SignalInterrupt(KeyboardInterrupt):
-    """An interrupt with the name of its signal, "" of Ctrl-C."""
+    """A KeyboardInterrupt with the name of its signal, "" for Ctrl-C."""
 
     signal: str = ""
 
@@ -70,25 +70,25 @@ class UnknownName(Error, KeyError):
 
 
 def extra(name):
-    """Command that installs an optional part, for the end of a sentence about a missing package."""
+    """Command that installs an optional dependency, for the end of a message about a missing package."""
     return f"pip install 'tehl_taichi[{name}]' (in a checkout: pip install -e '.[{name}]')"
 
 
 def brief(error, most=200):
-    """An error of another library in one sentence: the first line that says something, without what a dump shows below it."""
+    """Error of another library in one sentence: its first meaningful line, cut at `most` letters."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
     text = " ".join(lines[0].split()) if lines else type(error).__name__
     return text if len(text) <= most else f"{text[:most].rsplit(' ', 1)[0]} ..."
 
 
 def stopped(stop):
-    """Beginning of a sentence about a KeyboardInterrupt: "interrupted" (Ctrl-C), or its signal."""
+    """Beginning of a message about a KeyboardInterrupt: "interrupted" (Ctrl-C), or the name of its signal."""
     name = getattr(stop, "signal", "")
     return f"stopped by {name}" if name else "interrupted"
 
 
 def interrupt(stop, more):
-    """A KeyboardInterrupt by the signal of `stop` with the sentence about it; more: how that continues."""
+    """A KeyboardInterrupt with the signal of `stop` and a message; more: the end of the message."""
     made = SignalInterrupt(f"{stopped(stop)}{more}")
     made.signal = getattr(stop, "signal", "")
     return made

@@ -17,7 +17,7 @@ __all__ = ["crack"]
 
 def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None = None, threads: int | None = None,
           **options: Any) -> "CrackResult":
-    """As :func:`tehl_taichi.crack`."""
+    """Compute crack paths: see :func:`tehl_taichi.crack`."""
     from tehl_taichi.crack.analysis import run
     from tehl_taichi.crack.crack_options import CrackOptions
     from tehl_taichi.engine import runtime

@@ -1,4 +1,4 @@
-"""The whole answer, in one body: on both sides of the feature the trajectory, the crack's path and what drives it."""
+"""Crack analysis of one body: for both sides of the feature the trajectory, the crack path and the loads that drive it."""
 
 from dataclasses import dataclass
 
@@ -19,7 +19,9 @@ CLEAR = 0.05                    # a larger difference between the grids of a cra
 
 @dataclass(frozen=True)
 class CrackSide:
-    """One side: its :class:`CrackStart`, the trajectory (m, complex) with the tension (Pa) along it, and the crack's path."""
+    """Result of one side: its :class:`CrackStart`, the trajectory (complex points, m), the tension (Pa) along it, the crack
+    path.
+    """
 
     start: CrackStart
     trajectory: np.ndarray
@@ -63,7 +65,9 @@ class CrackResult:
 
 
 def run(scene, reader, options):
-    """:class:`CrackResult` of a passage of `scene`; reader: see :func:`plane_of`, or a list of snapshots. Raises SceneError."""
+    """Return the :class:`CrackResult` of a passage of `scene`. reader: see :func:`plane_of`, or a list of snapshots. Raises
+    SceneError.
+    """
     reader = Snapshots(reader) if isinstance(reader, list) else reader
     passing(scene, reader)
     surface = body.chosen(scene, reader, options.surface)
@@ -76,7 +80,7 @@ def run(scene, reader, options):
 
 
 def follow(plane, scene, options):
-    """:class:`CrackResult` in a given plane of stresses."""
+    """Return the :class:`CrackResult` for given stresses of the symmetry plane."""
     _check_places(plane.x, plane.depths[-1], options)
     surface = plane.surface or scene.reference
     E_star, sides, summaries = surface.body.E / (1 - surface.body.nu**2), {}, {}
@@ -102,7 +106,9 @@ def _why_not(plane, side):
 
 
 def _check_places(places, deepest, options):
-    """Refuse a mouth or a first piece outside the stresses at these x' (m), down to `deepest` (m)."""
+    """Raise SceneError if the mouth or the first piece lies outside the stresses, given at these x' (m) and to depth `deepest`
+    (m).
+    """
     (low, high), x = places[[0, -1]], options.start
     if x is not None and not low <= x <= high:
         raise SceneError(f"start = {x:g} m is outside the computed stresses; allowed: {low:.3g} to {high:.3g} m")
@@ -134,7 +140,7 @@ def _summary(plane, side, options, E_star):
 
 
 def _shape(points):
-    """Lean and chord angles (degrees to the surface) of a path."""
+    """Direction in which a path leans, and its chord angles (degrees to the surface)."""
     mouth, tip = points[0], points[-1]
     chords = {f"{depth * 1e6:g}": _chord(points, depth) for depth in DEPTHS}
     return {"lean": "with rolling" if tip.real < mouth.real else "against rolling", "deepest_m": float(points.imag.max()),
@@ -142,7 +148,7 @@ def _shape(points):
 
 
 def _chord(points, depth):
-    """Angle to the surface of the line from the mouth to where the path first reaches the depth; None where it does not."""
+    """Angle between the surface and the line from the mouth to the first point at this depth; None if it stays above."""
     below = np.flatnonzero(points.imag >= depth)
     if below.size == 0:
         return None
@@ -154,13 +160,13 @@ def _chord(points, depth):
 
 
 def _pulled(points, tension):
-    """Depth (m) down to which the trajectory is pulled at its moment."""
+    """Depth (m) to which the trajectory is under tension at its moment."""
     pressed = np.flatnonzero(tension <= 0)
     return float(points[pressed[0] if pressed.size else -1].imag)
 
 
 def _doubts(plane, path, options, E_star):
-    """K_I with twice as many elements, and warnings."""
+    """Error of K_I, from twice as many elements, and warnings."""
     fine = loaded(plane, path.points, options, E_star, 2 * options.elements)
     K, finer = path.last.K, fine.K
     largest = max(np.abs(finer).max(), 1e-30)

@@ -6,7 +6,9 @@ from tehl_taichi.fatigue.judged_surfaces import by_surface, resting
 
 
 def chosen(scene, reader, name):
-    """The :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` of that name, or of the worse body. Raises SceneError."""
+    """Return the :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` with this name, or the worse surface. Raises
+    SceneError.
+    """
     name = _worse(scene, reader) if name == WORSE else name
     if name in (s.name for s, rests in zip(scene.surfaces, scene.at_rest) if rests):
         raise resting(name)
@@ -14,7 +16,7 @@ def chosen(scene, reader, name):
 
 
 def _worse(scene, reader):
-    """Surface of the verdict of a finished run; without one, the surface with the largest index at the surface."""
+    """Name of the surface that decides the verdict of a finished run; without a verdict, the one with the largest index."""
     if found := by_surface(getattr(reader, "summary", {})):
         return max(found, key=lambda one: assessment.largest(found[one]))
     if len(scene.judged) < 2:

@@ -9,7 +9,9 @@ from tehl_taichi.crack.complementarity import FREE, LOW, ROUND, bounded
 
 
 def opened(faces, forces):
-    """(nodal values (2 nodes, moments), contact forces (contacts, moments)) of faces without friction, by nodal forces."""
+    """Solve the contact of frictionless faces for given nodal forces. Returns (nodal values (2 nodes, moments), contact forces
+    (contacts, moments)).
+    """
     rows = faces.contact[: len(faces.contact) - faces.rough]
     free, held = faces.compliance @ forces, np.zeros((len(rows), forces.shape[1]))
     gap, M, at = rows @ free, rows @ faces.compliance @ rows.T, np.full(len(rows), LOW)
@@ -24,13 +26,13 @@ def opened(faces, forces):
 
 
 def shut(faces, values, held):
-    """Nodal values without what rounding leaves open at a closed tip."""
+    """Nodal values with exactly zero opening at a closed tip (rounding leaves a small one)."""
     values[faces.nodes - 1][held[faces.rough - 1] > 0] = 0.0
     return values
 
 
 def _tried(M, gap, closed):
-    """(q (contacts, moments), moments at which it fits) if exactly these contacts touch."""
+    """Contact forces q (contacts, moments) if exactly the contacts `closed` touch, and the consistent moments."""
     q = np.zeros_like(gap)
     q[closed] = np.linalg.solve(M[np.ix_(closed, closed)], -gap[closed])
     wrong = np.where(closed[:, None], q < 0, gap + M @ q < -ROUND * np.abs(gap).max(axis=0))

@@ -1,7 +1,7 @@
-"""Forces between bounds whose displacements are zero, or press them against a bound (a mixed linear complementarity problem).
+"""Forces between two bounds: each has zero displacement, or is at a bound (a mixed linear complementarity problem).
 
-The matrix is symmetric and positive, so there is one answer and exchanging whole sets of unknowns finds it, one unknown at a
-time where that does not get on (Judice & Pires 1994; Murty 1974).
+The matrix is symmetric and positive, so there is one solution. Exchanging sets of unknowns finds it; where that makes no
+progress, one unknown is exchanged at a time (Judice & Pires 1994; Murty 1974).
 """
 
 from typing import Any
@@ -15,9 +15,9 @@ YIELD = 1e-12  # of the largest displacement by a unit force: what each unknown 
 
 
 def bounded(M, gap, low, high, at):
-    """(r, where r stands: LOW, FREE or HIGH): low <= r <= high, w = gap + M r >= 0 at LOW, 0 where FREE, <= 0 at HIGH.
+    """Solve for forces r with low <= r <= high: w = gap + M r is >= 0 at LOW, 0 where FREE, <= 0 at HIGH.
 
-    at: first guess.
+    at: first guess of the states. Returns (r, states: LOW, FREE or HIGH).
     """
     fewest, left, small = gap.size + 1, TRIES, ROUND * np.abs(gap).max()
     seen: dict[bytes, Any] = {}
@@ -41,21 +41,24 @@ def bounded(M, gap, low, high, at):
 
 
 def _least(seen, again):
-    """The state with the least forces, of those that follow each other for ever from `again` on, all wrong by rounding."""
+    """State with the smallest forces of a cycle that starts at `again`; rounding alone makes the states of the cycle differ."""
     states = list(seen)
     return min((seen[state] for state in states[states.index(again) :]), key=lambda found: np.abs(found[0]).max())
 
 
 def _forces(M, gap, low, high, at):
-    """r with no displacement where FREE."""
+    """Forces r: at their bounds, or with zero displacement where FREE."""
     r, free = np.where(at == LOW, low, np.where(at == HIGH, high, 0.0)), at == FREE
     r[free] = solved(M[np.ix_(free, free)], -(gap + M @ r)[free])
     return r
 
 
 def solved(M, right_side):
-    """Forces for the displacements `right_side`. Those of faces that touch and of the oil between them may mean the same: each
-    gives way a little then, which shares the force out, or makes it large where displacements contradict each other."""
+    """Forces that cause the displacements `right_side`.
+
+    Rows may be dependent (touching faces with oil between them). A small compliance of each shares the force between them, or
+    makes it large where the displacements contradict each other.
+    """
     try:
         return np.linalg.solve(M, right_side)
     except np.linalg.LinAlgError:
@@ -63,7 +66,7 @@ def solved(M, right_side):
 
 
 def _next(r, w, low, high, at, small):
-    """Next value of r."""
+    """States of the next iteration."""
     new = at.copy()
     free = at == FREE
     new[free & (r < low)], new[free & (r > high)] = LOW, HIGH

@@ -1,8 +1,8 @@
-"""The faces of one crack: what they open and slide under given stresses, and the stress intensities that come with it.
+"""Faces of one crack: opening, slip and stress intensities under given stresses.
 
-Normal n on the left of the way from the mouth to the tip; opening and slip are those of the left face against the right one.
-Openings are sqrt(distance to the tip) times nodal values (sqrt(m)). At a kink the faces may touch on both sides of it: two
-contacts, whose own friction is left out (a point); the nodal normal there halves the angle.
+The normal n points to the left on the way from the mouth to the tip. Opening and slip are displacements of the left face
+relative to the right one. Openings are sqrt(distance to the tip) times nodal values (sqrt(m)). At a kink the faces may touch on
+both sides of it: two contacts. Their own friction is left out (one point); the nodal normal there halves the angle.
 """
 
 import numpy as np
@@ -15,9 +15,9 @@ from tehl_taichi.crack.stiffness import stiffness
 class CrackFaces:
     """A crack along `path` (complex points, m, from the mouth to the tip) with about `count` elements.
 
-    E_star: E/(1 - nu^2), Pa. compliance: (2 nodes, 2 nodes) nodal values (normal ones, then tangential ones, from the mouth to
-    the tip) by nodal forces; points: (p,) where :meth:`forces` wants the stresses. contact: (contacts + rough, 2 nodes) opening
-    of every contact by nodal values, then slip of the first `rough` ones, which rub; the last of these is the tip.
+    E_star: E/(1 - nu^2), Pa. compliance: (2 nodes, 2 nodes) nodal values by nodal forces (first normal, then tangential, from
+    the mouth to the tip). points: (p,) where :meth:`forces` needs the stresses. contact: (contacts + rough, 2 nodes) opening of
+    every contact by nodal values, then slip of the first `rough` contacts, which have friction; the last of these is the tip.
     """
 
     def __init__(self, path, E_star, count):
@@ -30,44 +30,47 @@ class CrackFaces:
         self.compliance = np.linalg.inv(self.turn.T @ stiffness(elements, E_star) @ self.turn)
 
     def forces(self, stress):
-        """(2 nodes, moments) from stresses (p, moments, 3) xx, zz, xz of the body without the crack."""
+        """Nodal forces (2 nodes, moments) of stresses (p, moments, 3) xx, zz, xz of the body without the crack."""
         n = 1j * self.direction[:, None]
         x = stress[..., 0] * n.real + stress[..., 2] * n.imag
         z = stress[..., 2] * n.real + stress[..., 1] * n.imag
         return self.turn.T @ np.concatenate([self.load.T @ x, self.load.T @ z])
 
     def opening(self):
-        """(points, 2 nodes) opening at the points, m, by nodal values."""
+        """Matrix (points, 2 nodes): opening at the points (m) by nodal values."""
         n = 1j * self.direction[:, None] / self.length[:, None]
         return np.concatenate([self.load * n.real, self.load * n.imag], axis=1) @ self.turn
 
     def pushed(self):
-        """(2 nodes,) nodal forces of unit pressure on both faces: the volume of the crack by nodal values, too."""
+        """Nodal forces (2 nodes,) of unit pressure on both faces; by nodal values these are also the volume of the crack."""
         return self.length @ self.opening()
 
     def parts(self, count):
-        """(points,) which of so many parts of the crack, from the mouth on, a point is in."""
+        """Divide the crack into `count` parts from the mouth on. Returns the part number of every point, (points,)."""
         return np.arange(self.points.size) * count // self.points.size
 
     def intensities(self, values):
-        """(2, ...) K_I and K_II, Pa sqrt(m), from nodal values (2 nodes, ...)."""
+        """K_I and K_II (2, ...), Pa sqrt(m), of nodal values (2 nodes, ...)."""
         return self.E_star / 8 * np.sqrt(2 * np.pi) * values[[self.nodes - 1, -1]]
 
     def around(self, points):
-        """(3, points, 2 nodes) xx, zz, xz in the body by nodal values; a jump is an opening that ends, hence the sign."""
+        """Matrix (3, points, 2 nodes): stresses xx, zz, xz in the body by nodal values.
+
+        The sign follows from the definition: a dislocation is the end of an opening.
+        """
         z, z0 = np.asarray(points)[:, None], self.points
         by_x, by_z = ([part @ self.jump for part in stresses(z, z0, -unit, self.E_star)] for unit in (1.0, 1j))
         return np.concatenate([by_x, by_z], axis=2) @ self.turn
 
 
 def _normals(direction):
-    """(nodes,) unit complex numbers."""
+    """Normals at the nodes: (nodes,) unit complex numbers."""
     both = np.concatenate([direction[:1], direction]) + np.concatenate([direction, direction[-1:]])
     return 1j * both / np.abs(both)
 
 
 def _contacts(direction, normal):
-    """(rows, number of rubbing contacts): see :class:`CrackFaces`."""
+    """Contact rows (see :class:`CrackFaces`) and the number of contacts with friction."""
     nodes, eye = normal.size, np.eye(2 * normal.size)
     kinks = 1 + np.flatnonzero(direction[1:] != direction[:-1])
     plain = np.setdiff1d(np.arange(nodes), kinks)
@@ -77,6 +80,6 @@ def _contacts(direction, normal):
 
 
 def _turn(normal):
-    """(2 nodes, 2 nodes): x and z of nodal values from their normal and tangential parts."""
+    """Matrix (2 nodes, 2 nodes) from normal and tangential nodal values to their x and z parts."""
     tangent = -1j * normal
     return np.block([[np.diag(normal.real), np.diag(tangent.real)], [np.diag(normal.imag), np.diag(tangent.imag)]])

@@ -17,14 +17,16 @@ LONGEST, PIECE = 0.03, 1e-3  # m, a crack and a piece of it: a contact is a mill
 
 @dataclass(frozen=True)
 class CrackOptions:
-    """surface: a, b or worse (that of the verdict on fatigue). side: entry, exit or both (of the feature: ahead of its centre
-    is the exit). start: x' of the mouth, m (None: where the surface is pulled most on that side); angle: of the first piece,
-    degrees from +x' into the body (90: straight down, more: leaning with rolling); first: its length, step: of the others,
-    length: of the whole, m. distance: ahead of the tip, m, at which the largest tension around it is looked for. threshold: of
-    K_I, Pa sqrt(m), below which it stops (None: it has none). residual: stress along x, Pa or rows (depth, Pa); None:
-    fatigue.residual_xx of the scene. face_friction: of closed faces. oil: a name of
-    :data:`tehl_taichi.crack.fillings.FILLINGS`, or the share of the film's pressure at the mouth that acts on both faces (an
-    upper bound). elements: of a straight crack. Raises SceneError for values out of range.
+    """Options of a crack analysis. Raises SceneError for values out of range.
+
+    surface: a, b or worse (the surface that decides the fatigue verdict). side: entry, exit or both; exit is ahead of the
+    feature's centre. start: x' of the mouth, m (None: the place of the largest tension on that side). angle: of the first
+    piece, degrees from +x' into the body (90: straight down; more: leaning with rolling). first, step: lengths of the first and
+    of every further piece, m. length: largest length, m. distance: distance ahead of the tip at which the direction of the
+    largest tension is sought, m. threshold: K_I below which growth stops, Pa sqrt(m) (None: no threshold). residual: stress
+    along x, Pa or rows (depth, Pa) (None: fatigue.residual_xx of the scene). face_friction: friction coefficient of closed
+    faces. oil: a name of :data:`tehl_taichi.crack.fillings.FILLINGS`, or the share of the mouth's film pressure that acts on
+    both faces (an upper bound). elements: number on a straight crack.
     """
 
     surface: str = choice(WORSE, "body that has the crack", (WORSE, *NAMES))
@@ -62,12 +64,12 @@ class CrackOptions:
 
     @property
     def oil_share(self):
-        """Share of the film's pressure at the mouth, where all of the crack has it."""
+        """Share of the mouth's film pressure that acts in the whole crack."""
         return 1.0 if isinstance(self.oil, str) else self.oil
 
     @property
     def sides(self):
-        """The sides wanted; of a given start that on which it is."""
+        """Sides of the feature to analyse; with a given start the side on which it lies."""
         if self.side == "both" and self.start is not None:
             return SIDES[self.start >= 0 :][:1]
         return SIDES if self.side == "both" else (self.side,)

@@ -1,7 +1,7 @@
-"""A path and the elements on it: the opening is sqrt(a - s) times a polygon, s the length from the mouth, a that of the path.
+"""Elements of a crack path: the opening is sqrt(a - s) times a polygon (s: length from the mouth, a: length of the path).
 
-So the nodal value at the tip is the stress intensity, and an opening is nowhere negative where no nodal value is. In
-u = sqrt(a - s) all functions of an element are polynomials. The elements shrink towards the mouth, every kink and the tip.
+So the nodal value at the tip is the stress intensity, and the opening is nowhere negative if no nodal value is. In u = sqrt(a -
+s) all functions of an element are polynomials. The elements shrink towards the mouth, every kink and the tip.
 """
 
 import numpy as np
@@ -12,22 +12,23 @@ GAUSS = 4        # points of an element: 1e-5 of K
 
 
 def gauss(count):
-    """Points and weights on 0..1."""
+    """Gauss points and weights on 0..1."""
     x, w = np.polynomial.legendre.leggauss(count)
     return (x + 1) / 2, w / 2
 
 
 def without_straight(points):
-    """The path (complex points, m) without those points at which it does not turn."""
+    """Path (complex points, m) without the points at which it does not turn."""
     points = np.asarray(points, complex)
     turn = np.abs(np.angle(np.diff(points)[1:] / np.diff(points)[:-1]))
     return points[np.concatenate([[True], turn > STRAIGHT, [True]])]
 
 
 class Elements:
-    """Elements of a path: complex points (m) from the mouth to the tip; about `count` of them.
+    """Elements of a path (complex points, m, from the mouth to the tip), about `count` of them.
 
-    s: (nodes,) m; a: length; lengths: of the elements; direction: (elements,) unit complex numbers.
+    s: (nodes,) length from the mouth, m; a: length of the path; lengths: of the elements; direction: (elements,) unit complex
+    numbers.
     """
 
     def __init__(self, path, count):
@@ -44,7 +45,7 @@ class Elements:
         self.origin, self.offset = self.path[piece], starts[piece]
 
     def at(self, k, xi):
-        """Quantities of elements k at xi = 0..1 in u: u, z, both shape functions (without u) and d/dxi of both (with it)."""
+        """Values in elements k at xi = 0..1 in u: u, z, both shape functions (without u) and their d/dxi (with it)."""
         turn = np.diff(self.u)[k]
         u = self.u[k] + turn * xi
         s = self.a - u * u
@@ -54,8 +55,9 @@ class Elements:
         return u, z, (1 - second, second), ((1 - second + bend) * turn, (second - bend) * turn)
 
     def points(self):
-        """z and direction at the Gauss points of all elements, the length each stands for; weighted jump and weighted opening
-        there by nodal values, each (points, nodes)."""
+        """Values at the Gauss points of all elements: z, direction, length that each stands for, and two matrices (points,
+        nodes): weighted jump and weighted opening by nodal values.
+        """
         xi, w = gauss(GAUSS)
         k = np.arange(self.lengths.size)[:, None]
         u, z, shapes, slopes = self.at(k, xi)

@@ -1,9 +1,9 @@
-"""Closed faces with Coulomb friction, moment after moment: they stick, or slide against a force of mu times the contact force.
+"""Closed faces with Coulomb friction, moment by moment: they stick, or slip against a force of mu times the contact force.
 
-Slip has a history, so the passage is gone through twice and the second time counts. In a moment whole sets of
-states are exchanged; where that goes round in circles, the friction is bounded by mu times the contact force of the round
-before (a positive problem with one answer) until both agree (Haslinger 1983). States last for several moments, so some are
-solved at once; the second passage ends where it meets the first one.
+Slip depends on its history, so the passage is computed twice and the second result counts. In each moment whole sets of states
+are exchanged. If that cycles, the friction is bounded by mu times the contact force of the previous iteration (a positive
+problem with one solution) until both agree (Haslinger 1983). States last for several moments, so several are solved at once.
+The second passage ends where it agrees with the first one.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,9 @@ FORGOT = 1e-12  # of the largest slip: passages that differ by less, in the same
 
 @dataclass
 class FrictionHistory:
-    """A passage: forces (contacts + rough, moments), states (contacts, moments), slip (rough, moments), settled (moments,)."""
+    """States of a passage: forces (contacts + rough, moments), states (contacts, moments), slip (rough, moments), settled
+    (moments,).
+    """
 
     forces: np.ndarray
     state: np.ndarray
@@ -36,23 +38,25 @@ class FrictionHistory:
                    np.ones(moments, bool))
 
     def put(self, at, r, state, slip, settled):
-        """Moments `at`; all of them in one state (contacts,)."""
+        """Store the values of moments `at`; `state` (contacts,) holds in all of them."""
         self.forces[:, at], self.state[:, at], self.slip[:, at], self.settled[at] = r, state[:, None], slip, settled
 
     def meets(self, other, at):
-        """Whether both stand alike after this moment."""
+        """Whether both histories agree after this moment."""
         apart = np.abs(self.slip[:, at] - other.slip[:, at]).max()
         return (self.state[:, at] == other.state[:, at]).all() and apart <= FORGOT * np.abs(other.slip).max()
 
     def follow(self, other, begin):
-        """Continue as the other one."""
+        """Copy the other history from moment `begin` on."""
         rest = slice(begin, None)
         self.forces[:, rest], self.state[:, rest] = other.forces[:, rest], other.state[:, rest]
         self.slip[:, rest], self.settled[rest] = other.slip[:, rest], other.settled[rest]
 
 
 def with_friction(faces, forces, mu):
-    """(nodal values (2 nodes, moments), contact forces (contacts, moments), number of moments that did not settle)."""
+    """Solve the contact of faces with friction. Returns (nodal values (2 nodes, moments), contact forces (contacts, moments),
+    number of moments that did not settle).
+    """
     G, contacts = faces.contact, len(faces.contact) - faces.rough
     S, free = G @ faces.compliance @ G.T, G @ faces.compliance @ forces
     first = _passage(S, free, mu, np.full(contacts, OPEN), np.zeros(faces.rough))
@@ -62,8 +66,10 @@ def with_friction(faces, forces, mu):
 
 
 def _passage(S, free, mu, state, slip, before=None):
-    """The passage :class:`FrictionHistory` through from a state (contacts,) and slip (rough,) on, until it meets the one
-    before."""
+    """The :class:`FrictionHistory` of a passage that starts with this state (contacts,) and slip (rough,).
+
+    It ends early where it agrees with the passage `before`.
+    """
     moments = free.shape[1]
     history, now = FrictionHistory.none(state.size, slip.size, moments), 0
     while now < moments:
@@ -78,8 +84,10 @@ def _passage(S, free, mu, state, slip, before=None):
 
 
 def some(S, free, mu, state, slip):
-    """(forces (contacts + rough, n), their one state, slip (rough, n), settled, a guess of the next state) of the first n
-    moments of `free`, at least one."""
+    """Solve the first n moments of `free` (at least one) that share one state.
+
+    Returns (forces (contacts + rough, n), the state, slip (rough, n), settled, guess of the next state).
+    """
     contacts, r = state.size, np.zeros(0)
     for _ in range(TRIES):
         r = _forces(S, free, mu, state, slip)
@@ -94,13 +102,16 @@ def some(S, free, mu, state, slip):
 
 
 def _fitting(state, new):
-    """Number of moments, from the first one on, that are in this state."""
+    """Number of consecutive moments from the first one on that are in this state."""
     wrong = np.flatnonzero((new != state[:, None]).any(axis=0))
     return wrong[0] if wrong.size else new.shape[1]
 
 
 def by_bounds(S, free, mu, slip, q):
-    """(state, forces, whether they settled) at one moment, from contact forces q (contacts,) on; slip: before it."""
+    """Solve one moment with bounded friction, starting with contact forces q (contacts,); slip: of the previous moment.
+
+    Returns (state, forces, whether it settled).
+    """
     rough, gap = slip.size, free - np.concatenate([0 * q, slip])
     at = np.where(np.concatenate([q, q[:rough]]) > 0, FREE, LOW)
     for _ in range(ROUNDS):
@@ -116,7 +127,7 @@ def by_bounds(S, free, mu, slip, q):
 
 
 def _forces(S, free, mu, state, slip):
-    """Contact and friction forces (contacts + rough, moments) in one state."""
+    """Contact and friction forces (contacts + rough, moments) if all moments have this state."""
     contacts, rough, r = state.size, slip.size, np.zeros_like(free)
     touching, stuck = np.flatnonzero(state != OPEN), np.flatnonzero(state[:rough] == STUCK)
     rub = mu * ((state[:rough] == DOWN) * 1.0 - (state[:rough] == UP))
@@ -133,7 +144,7 @@ def _forces(S, free, mu, state, slip):
 
 
 def _next(state, r, moved, mu, slip):
-    """States (contacts, moments) that suit these forces and openings and slips `moved` better."""
+    """States (contacts, moments) of the next iteration, from these forces, openings and slips."""
     contacts, rough, rubs = state.size, slip.size, state[: slip.size, None]
     q, f, opening = r[:contacts], r[contacts:], moved[:contacts]
     growth = moved[contacts:] - np.concatenate([slip[:, None], moved[contacts:, :-1]], axis=1)

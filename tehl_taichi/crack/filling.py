@@ -1,4 +1,4 @@
-"""The entry of a crack filling, and the oil in it."""
+"""Type of a crack filling, and the properties of the oil in it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,15 +14,18 @@ GAP = 20e-9  # m: left between faces that touch (their roughness), in which oil 
 
 @dataclass(frozen=True, kw_only=True)
 class Filling(Entry):
-    """inside(wet): the :class:`tehl_taichi.crack.fluid_filled.FluidState` of a
-    :class:`tehl_taichi.crack.fluid_filled.FluidFilledCrack` crack."""
+    """A crack filling. inside(wet): the :class:`tehl_taichi.crack.fluid_filled.FluidState` of a
+    :class:`tehl_taichi.crack.fluid_filled.FluidFilledCrack`.
+    """
 
     inside: Callable
 
 
 @dataclass(frozen=True)
 class Fluid:
-    """compression(p): density over that at p = 0; viscosity(p): Pa s; p in Pa, numbers or arrays. gap: m, see :data:`GAP`."""
+    """Oil in the crack. compression(p): density relative to p = 0; viscosity(p): Pa s; p: Pa, number or array; gap: m, see
+    :data:`GAP`.
+    """
 
     compression: Callable
     viscosity: Callable
@@ -30,11 +33,11 @@ class Fluid:
 
     @classmethod
     def of(cls, scene):
-        """The scene's oil at the temperature of the bodies, Newtonian."""
+        """Oil of the scene at the temperature of the bodies, Newtonian."""
         oil, Gamma = scene.oil, scene.operation.temperature
         return cls(lambda p: rho_ratio(oil, p, Gamma) / rho_ratio(oil, 0.0, Gamma), lambda p: np.exp(ln_eta(oil, p, Gamma)))
 
     def compressibility(self, p):
-        """k (1/Pa) with 1 - k p = 1/compression(p)."""
+        """Coefficient k (1/Pa) with 1 - k p = 1/compression(p)."""
         p = np.maximum(p, 1e5)
         return (1 - 1 / self.compression(p)) / p

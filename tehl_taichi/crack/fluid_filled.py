@@ -1,8 +1,8 @@
-"""A loaded crack with a filling, and its passage if the oil pressures are unknowns.
+"""A loaded crack with a filling, and its solution moment by moment where oil pressures are unknowns.
 
-Oil in a part of the crack (a cell) is a contact, too: its pressure is not negative, the volume of the cell is not smaller than
-that of the oil, one of them fits (as Elrod 1981 has it for films that break). So pressures and contact forces are found
-together, and the matrix stays symmetric and positive.
+Oil in a part of the crack (a cell) is handled as a contact: its pressure is not negative, the volume of the cell is not smaller
+than that of the oil, and one of the two is an equality (as in Elrod's 1981 cavitation model). So pressures and contact forces
+are found together, and the matrix stays symmetric and positive.
 """
 
 from dataclasses import dataclass, replace
@@ -17,8 +17,9 @@ from tehl_taichi.crack.filling import Fluid
 
 @dataclass(frozen=True)
 class FluidState:
-    """values (2 nodes, moments), contact forces held (contacts, moments), moments that did not settle; pressure (moments,) Pa
-    at the tip, and what the oil's volume would be at p = 0, m^2 (moments,) or None."""
+    """Solution of a filled crack: nodal values (2 nodes, moments), contact forces held (contacts, moments), unsettled moments,
+    pressure (moments,) at the tip in Pa, and volume of the oil at p = 0, m^2 (moments,) or None.
+    """
 
     values: np.ndarray
     held: np.ndarray
@@ -29,9 +30,12 @@ class FluidState:
 
 @dataclass(frozen=True)
 class FluidFilledCrack:
-    """faces: :class:`tehl_taichi.crack.compliance.CrackFaces`; forces (2 nodes, moments): of the body without oil; mouth
-    (moments,): pressure of the film at the mouth, Pa; share: of it for fillings that take one; times (moments,): s; friction:
-    of the faces; fluid: :class:`Fluid`; cells: along the crack, for pressures that differ there."""
+    """A loaded crack with oil.
+
+    faces: :class:`tehl_taichi.crack.compliance.CrackFaces`; forces (2 nodes, moments): of the body without oil; mouth
+    (moments,): film pressure at the mouth, Pa; share: part of it that acts, for fillings that use a share; times (moments,): s;
+    friction: coefficient of the faces; fluid: :class:`Fluid`; cells: number along the crack, for pressures that vary.
+    """
 
     faces: Any
     forces: np.ndarray
@@ -43,7 +47,7 @@ class FluidFilledCrack:
     cells: int
 
     def under(self, pressure):
-        """:class:`FluidState` of one given pressure (moments,) everywhere in the crack."""
+        """The :class:`FluidState` under a given pressure (moments,) in the whole crack."""
         forces = self.forces + self.faces.pushed()[:, None] * pressure
         if self.friction > 0:
             values, held, missed = with_friction(self.faces, forces, self.friction)
@@ -52,9 +56,11 @@ class FluidFilledCrack:
         return FluidState(values, held, missed, pressure)
 
     def marched(self, count, first, step):
-        """:class:`FluidState` of a march with `count` cells. first(march): (:class:`MomentState`, contents (cells,)) at the
-        first moment; step(march, n, found, contents): the same at moment n. With friction it goes twice, as slip has a
-        history."""
+        """The :class:`FluidState` of a march with `count` cells.
+
+        first(march): (:class:`MomentState`, contents (cells,)) of the first moment; step(march, n, found, contents): that of
+        moment n. With friction the march runs twice, because slip depends on its history.
+        """
         march = CrackMarch(self, count)
         for _ in range(2 if self.friction > 0 else 1):
             kept = [march.took(*first(march))]
@@ -65,8 +71,10 @@ class FluidFilledCrack:
 
 @dataclass(frozen=True)
 class MomentState:
-    """One moment: forces and displacements of all rows of the march, nodal values (2 nodes,), pressures (cells,) Pa, state of
-    the contacts and cells, whether it settled; pressed: contact force of the mouth, below zero: what would just shut it."""
+    """Solution of one moment: forces and displacements of all rows of the march, nodal values (2 nodes,), pressures (cells,)
+    Pa, states of the contacts and cells, whether it settled, and `pressed`: contact force of the mouth (negative: the force
+    that would just shut it).
+    """
 
     forces: np.ndarray
     moved: np.ndarray
@@ -77,12 +85,15 @@ class MomentState:
     settled: bool
 
     def unsettled(self):
-        """This state, marked as not settled."""
+        """Copy of this state, marked as not settled."""
         return replace(self, settled=False)
 
 
 class CrackMarch:
-    """Rows: contacts, cells, slips of those that rub. volume: (cells, 2 nodes) m^2 by nodal values; length: (cells,) m."""
+    """Solver of consecutive moments. Its rows: contacts, cells, slips of contacts with friction.
+
+    volume: (cells, 2 nodes) m^2 by nodal values; length: (cells,) m.
+    """
 
     def __init__(self, wet, count):
         self.wet, faces = wet, wet.faces
@@ -97,7 +108,7 @@ class CrackMarch:
         self.state, self.slip = np.full(self.contacts + count, OPEN), np.zeros(len(slips))
 
     def under(self, n, pressure):
-        """:class:`MomentState` at moment n with one given pressure."""
+        """The :class:`MomentState` at moment n under a given pressure in the whole crack."""
         forces = np.zeros(len(self.G))
         forces[self.cells] = pressure * self.scale
         free, rows = self.free[:, n] + self.S @ forces, self.others
@@ -106,7 +117,7 @@ class CrackMarch:
         return self._found(n, forces, np.concatenate([state, wet]), settled)
 
     def holding(self, n, volume, D):
-        """:class:`MomentState` at moment n; its cells have at least the `volume` (cells,) m^2, less D (cells, cells) times
+        """The :class:`MomentState` at moment n if the cells have at least `volume` (cells,), m^2, less D (cells, cells) times
         pressure.
         """
         S, free = self.S.copy(), self.free[:, n].copy()
@@ -125,12 +136,12 @@ class CrackMarch:
         return MomentState(forces, moved, pressed, values, forces[self.cells] / self.scale, state, settled)
 
     def took(self, found, content):
-        """Both arguments, after their states and slips are kept for the next moment."""
+        """Keep state and slip for the next moment; returns both arguments."""
         self.state, self.slip = found.state, found.moved[self.state.size :]
         return found, content
 
     def inside(self, founds, contents):
-        """The :class:`FluidState` of all moments."""
+        """Join the solutions of all moments to one :class:`FluidState`."""
         held = np.stack([found.forces[: self.contacts] for found in founds], axis=1)
         values = shut(self.wet.faces, np.stack([found.values for found in founds], axis=1), held)
         pressure, missed = np.array([found.pressure[-1] for found in founds]), sum(not found.settled for found in founds)
@@ -138,6 +149,6 @@ class CrackMarch:
 
 
 def _cells(faces, count):
-    """Lengths (cells,) of so many parts of a crack, and their volumes (cells, 2 nodes) by nodal values."""
+    """Divide a crack into `count` cells. Returns their lengths (cells,) and volumes (cells, 2 nodes) by nodal values."""
     begin = np.searchsorted(faces.parts(count), np.arange(count))
     return tuple(np.add.reduceat(one, begin, axis=0) for one in (faces.length, faces.length[:, None] * faces.opening()))

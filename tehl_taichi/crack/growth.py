@@ -1,8 +1,8 @@
-"""A crack that grows: piece by piece where the tension around its tip is largest, over all directions and the whole passage.
+"""Growth of a crack, piece by piece, in the direction of the largest tension around its tip over the whole passage.
 
-Largest sigma_theta at a distance ahead of the tip, of the body with the crack in it (Erdogan & Sih 1963, at a finite distance):
-a short crack follows the trajectory, a long one the stress intensities. The largest k_1 of a vanishing kink is not asked: a
-closed crack under pressure has none that would stay open.
+The criterion is the largest sigma_theta at a distance ahead of the tip, in the body with the crack (Erdogan & Sih 1963, at a
+finite distance): a short crack follows the trajectory, a long one the stress intensities. The largest k_1 of a vanishing kink
+is no criterion here: a closed crack under pressure has no kink that stays open.
 """
 
 from dataclasses import dataclass, field
@@ -21,8 +21,9 @@ WHY = {"length": "it has reached the given length", "threshold": "K_I stays belo
 
 @dataclass
 class LoadedCrack:
-    """A crack through the passage: its faces, nodal values and K (2, moments) in Pa sqrt(m), share of its length that touches
-    (moments,), moments that did not settle, the pressure of the oil at the tip (moments,) Pa, and above the mouth."""
+    """A crack loaded by the passage: faces, nodal values, K (2, moments) in Pa sqrt(m), share of the length that touches
+    (moments,), unsettled moments, oil pressure at the tip (moments,) Pa, and film pressure at the mouth.
+    """
 
     faces: CrackFaces
     values: np.ndarray
@@ -38,8 +39,9 @@ class LoadedCrack:
 
 @dataclass
 class CrackPath:
-    """points: (m, complex); steps: one dict per length with K_I_max, K_II_range (Pa sqrt(m)) and when; why it stopped (a key of
-    WHY); first, last: :class:`LoadedCrack` at the first length and at the last one."""
+    """Path of a crack. points: (m, complex); steps: one dict per length with K_I_max, K_II_range (Pa sqrt(m)) and their
+    moments; why: reason of the end (a key of WHY); first, last: :class:`LoadedCrack` at the first and last length.
+    """
 
     points: np.ndarray
     steps: list = field(default_factory=list)
@@ -52,7 +54,7 @@ class CrackPath:
 
 
 def loaded(plane, points, options, E_star, elements=None):
-    """The :class:`LoadedCrack` crack along `points`, all of them within the plane."""
+    """Load a crack along `points` (all within the plane). Returns a :class:`LoadedCrack`."""
     elements = elements or options.elements
     faces = CrackFaces(points, E_star, elements)
     mouth = np.maximum(0.0, -plane.at(points[:1])[0, :, 1])
@@ -65,7 +67,7 @@ def loaded(plane, points, options, E_star, elements=None):
 
 
 def grow(plane, origin, options, E_star):
-    """The :class:`CrackPath` from a :class:`tehl_taichi.crack.trajectory.CrackStart`."""
+    """Grow a crack from a :class:`tehl_taichi.crack.trajectory.CrackStart`. Returns its :class:`CrackPath`."""
     first = options.first * np.exp(1j * np.radians(options.angle))
     path = CrackPath(np.array([origin.x, origin.x + first]))
     while not _stopped(plane, path, options, E_star):
@@ -76,7 +78,7 @@ def grow(plane, origin, options, E_star):
 
 
 def _stopped(plane, path, options, E_star):
-    """Loads the newest length; True, with the reason, where the crack goes no farther."""
+    """Load the crack at its newest length. Returns True, and stores the reason, if it stops growing."""
     tip, before = path.points[-1], path.points[-2]
     rising = tip.imag < before.imag and tip.imag <= options.distance  # what is left above it is a flake that breaks off
     if rising or not plane.holds(tip):
@@ -101,7 +103,7 @@ def _step_numbers(plane, crack):
 
 
 def _ahead(plane, crack, tip, last, options):
-    """Unit direction of the largest tension at wanted.distance from the tip, over the passage."""
+    """Unit direction of the largest tension at `options.distance` from the tip, over the passage."""
     turns = np.linspace(-WIDEST, WIDEST, FAN)
     directions = last / abs(last) * np.exp(1j * turns)
     at = tip + options.distance * directions
@@ -114,7 +116,7 @@ def _ahead(plane, crack, tip, last, options):
 
 
 def _hoop(plane, crack, at, directions):
-    """(points, moments) tension across the directions, of the body with the crack, and the pressure that would follow."""
+    """Tension across the directions in the body with the crack, plus the oil pressure that would follow: (points, moments)."""
     own = np.einsum("cpk,km->pmc", crack.faces.around(at), crack.values)
     xx, zz, xz = np.moveaxis(plane.at(at) + own, -1, 0)
     n = 1j * directions[:, None]
@@ -122,7 +124,7 @@ def _hoop(plane, crack, at, directions):
 
 
 def _top(values, n):
-    """Place between n - 1/2 and n + 1/2 of the top of the parabola through the three values around the largest one."""
+    """Position (n - 1/2 to n + 1/2) of the maximum of the parabola through the largest value and its two neighbours."""
     if not 0 < n < values.size - 1 or not np.isfinite(values[n - 1 : n + 2]).all():
         return 0.0
     bend = values[n - 1] - 2 * values[n] + values[n + 1]

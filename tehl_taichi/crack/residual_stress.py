@@ -17,9 +17,10 @@ WANTED = "lines with depth in m and stress in Pa; a header line may name the col
 
 
 class ResidualStress:
-    """Function of the depth (m) that gives Pa. given: Pa, or rows (depth m, Pa), depths increasing from 0 or more.
+    """Residual stress (Pa) as a function of depth (m).
 
-    Raises SceneError where it is neither, or numbers that make sense in another unit only.
+    given: Pa, or rows (depth m, Pa) with increasing depths from 0 or more. Raises SceneError for anything else, and for numbers
+    that make sense in another unit only.
     """
 
     def __init__(self, given):
@@ -44,7 +45,9 @@ class ResidualStress:
 
 
 def read(text):
-    """What `--residual` gives: a number in Pa, or the rows of a CSV file (depth in m, stress in Pa). Raises SceneError."""
+    """Read the value of `--residual`: a number in Pa, or the name of a CSV file (depth in m, stress in Pa). Raises
+    SceneError.
+    """
     try:
         return float(text)
     except ValueError:
@@ -59,7 +62,7 @@ def read(text):
 
 
 def _words(text):
-    """[(line, its columns)] of what says something."""
+    """Lines that are neither empty nor comments, as [(line number, columns)]."""
     lines = [(n, line.split("#")[0].strip()) for n, line in enumerate(text.splitlines(), 1)]
     lines = [(n, line) for n, line in lines if line]
     mark = column_mark("".join(line for _, line in lines))
@@ -68,7 +71,7 @@ def _words(text):
 
 
 def _rows(lines):
-    """Rows (depth, stress) of such lines; a line of words at their head says in which columns these are. Raises ValueError."""
+    """Array of rows (depth, stress) of such lines; a header line may name the columns. Raises ValueError."""
     if not lines:
         raise ValueError("it is empty")
     columns = (0, 1)
@@ -83,7 +86,9 @@ def _rows(lines):
 
 
 def _named(head):
-    """(column of the depth, column of the stress) by their names. Raises ValueError; also for another unit than SI."""
+    """Columns of depth and stress, (number, number), by their names in the header. Raises ValueError, also for units other than
+    SI.
+    """
     found = [[n for n, word in enumerate(head) if any(part in word.lower() for part in parts)]
              for parts in (("depth",), ("stress", "sigma", "residual"))]
     if [len(columns) for columns in found] != [1, 1]:

@@ -1,7 +1,7 @@
 """Elastic energy of a crack by its nodal openings: a symmetric, positive matrix (Galerkin's method with dislocations).
 
-The energy is the work between all pairs of jumps along the path. The kernel is singular where both meet (a logarithm, and at
-a kink a value that depends on the direction), so elements that touch have points of their own (after Duffy 1982).
+The energy is the work between all pairs of jumps along the path. The kernel is singular where both coincide (a logarithm, and
+at a kink a value that depends on the direction). So neighbouring elements use special integration points (after Duffy 1982).
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ CORNER, DIAGONAL, POWER = 6, 8, 3  # points along and across a triangle of touch
 
 
 def stiffness(elements, E_star):
-    """(2 nodes, 2 nodes) N/m^2 by x and z of the nodal openings over sqrt(length)."""
+    """Stiffness matrix (2 nodes, 2 nodes), N/m^2, by x and z of the nodal openings over sqrt(length)."""
     count = elements.lengths.size
     pairs = np.zeros((2, count + 1, count + 1), complex)
     _add_distant(elements, pairs)
@@ -28,7 +28,7 @@ def stiffness(elements, E_star):
 
 
 def _triangles():
-    """Points (x, y), weights and x - y on the unit square that crowd at the corner (0, 0) and on the diagonal."""
+    """Integration points (x, y), weights and x - y on the unit square, dense at the corner (0, 0) and along the diagonal."""
     (t, wt), (e, we) = gauss(CORNER), gauss(DIAGONAL)
     far, far_w = t**POWER, POWER * t ** (POWER - 1) * wt
     off, off_w = e**POWER, POWER * e ** (POWER - 1) * we
@@ -38,7 +38,7 @@ def _triangles():
 
 
 def _add_distant(elements, pairs):
-    """The work between all elements and those after the next one, at the products of their Gauss points."""
+    """Add the work between elements that are not neighbours, at the products of their Gauss points."""
     xi, w = gauss(GAUSS)
     i, j = np.triu_indices(elements.lengths.size, 2)
     x, y = np.repeat(xi, GAUSS), np.tile(xi, GAUSS)
@@ -46,9 +46,10 @@ def _add_distant(elements, pairs):
 
 
 def _add(elements, pairs, i, j, x, y, w, between=None):
-    """The work between elements i and j, at points x of the one and y of the other, added to both matrices `pairs`.
+    """Add the work between elements i and j, at points x and y of them, to both matrices `pairs`.
 
-    between: x - y, of an element with itself."""
+    between: x - y, if i and j are one element.
+    """
     u, z, _, slopes = elements.at(i[:, None], x)
     u0, z0, _, slopes0 = elements.at(j[:, None], y)
     d = None

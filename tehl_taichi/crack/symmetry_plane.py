@@ -1,4 +1,4 @@
-"""Stresses of a body in the plane of symmetry of its contact, over the whole passage: a table over x', depth and moments."""
+"""Stresses of a body in its plane of symmetry over the whole passage: a table over x', depth and moments."""
 
 import copy
 from typing import Any
@@ -21,10 +21,13 @@ WITHOUT_RESIDUAL = {"fatigue.residual_xx": 0.0, "fatigue.table": "", "fatigue.ta
 
 
 class SymmetryPlane:
-    """x: (x',) m, even; depths: skin (GROWTH^n - 1) m; centres: the feature's (m) at every moment, the last one (unloaded) nan;
-    stress: (x', depths, moments, 3) Pa: xx, zz, xz, residual stress counted; a: m; reach: the feature's half width, m; times:
-    of the moments, s; fluid: :class:`tehl_taichi.crack.filling.Fluid` (both for oil that flows); surface: the
-    :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` whose points these are."""
+    """Stresses in the plane of symmetry.
+
+    x: (x',) m, even; depths: skin (GROWTH^n - 1) m; centres: positions of the feature (m) at every moment, nan for the last,
+    unloaded one; stress: (x', depths, moments, 3) Pa: xx, zz, xz with residual stress; a: m; reach: half width of the feature,
+    m; times: of the moments, s; fluid: :class:`tehl_taichi.crack.filling.Fluid` (times and fluid are needed for oil that
+    flows); surface: the :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` below which the points lie.
+    """
 
     def __init__(self, x, skin, stress, centres, a, reach, residual=None, times=None, fluid=None, surface=None):
         self.surface = surface
@@ -33,7 +36,7 @@ class SymmetryPlane:
         self.residual, self.scale, self.times, self.fluid = residual, float(np.abs(stress).max()), times, fluid
 
     def having(self, residual):
-        """These loads with a residual stress (Pa, or rows of depth and Pa; None: as it is)."""
+        """Copy of the plane with this residual stress (Pa, or rows of depth and Pa); None: unchanged."""
         if residual is None:
             return self
         other = copy.copy(self)
@@ -42,17 +45,19 @@ class SymmetryPlane:
 
     @property
     def distance(self):
-        """(x', moments) from the feature's centre (m): x' itself on the surface that carries the feature."""
+        """Distance (m) of every x' from the feature's centre, (x', moments); x' itself on the surface that carries the
+        feature.
+        """
         slide = self.surface.pace - 1 if self.surface else 0.0
         return self.x[:, None] + slide * self.centres
 
     def holds(self, points):
-        """(points,) whether the table has x + i depth (m)."""
+        """Whether the table covers the points x + i depth (m): (points,)."""
         points = np.asarray(points)
         return (points.real >= self.x[0]) & (points.real <= self.x[-1]) & (points.imag >= 0) & (points.imag <= self.depths[-1])
 
     def at(self, points, moments=slice(None)):
-        """(points, moments, 3) Pa at x + i depth within the table: the cubic through four nodes each way."""
+        """Stresses (points, moments, 3), Pa, at x + i depth within the table, by cubic interpolation."""
         points = np.asarray(points)
         i, along = _cubic((points.real - self.x[0]) / (self.x[1] - self.x[0]), self.x.size)
         j, down = _cubic(np.log1p(points.imag / self.skin) / np.log(GROWTH), self.depths.size)
@@ -63,30 +68,29 @@ class SymmetryPlane:
         return found
 
     def sigma1(self):
-        """(x', depths) the largest principal stress (in the plane) of the passage."""
+        """Largest principal stress in the plane over the passage: (x', depths)."""
         found = principal(self.stress)[0]
         return found.max(axis=2) + (self.residual(self.depths) if self.residual else 0.0)
 
 
 def _cubic(at, count):
-    """(first of four nodes, their weights (4, points)) for places `at` in nodes."""
+    """First of four nodes and their cubic weights (4, points) for positions `at`, in nodes."""
     first = np.clip(np.floor(at).astype(int) - 1, 0, count - 4)
     return first, np.array(lagrange(range(4), at - first))
 
 
 def principal(stress):
-    """(largest principal stress, angle of its direction from x to depth) of stresses (..., 3)."""
+    """Largest principal stress, and the angle of its direction from x to depth, of stresses (..., 3)."""
     xx, zz, xz = np.moveaxis(stress, -1, 0)
     return (xx + zz) / 2 + np.hypot((xx - zz) / 2, xz), 0.5 * np.arctan2(2 * xz, xx - zz)
 
 
 def plane_of(scene, reader, residual=None, check=None, surface=None):
-    """The :class:`SymmetryPlane` of a surface of a stored passage (None: that of the first feature); reader: see
-    :class:`tehl_taichi.fatigue.stress.histories.StressHistories`.
+    """Build the :class:`SymmetryPlane` of a surface of a stored passage (None: the surface of the first feature).
 
-    residual: Pa or (depth, Pa) rows, instead of the scene's fatigue.residual_xx and tables. check(x', deepest): called with its
-    extent (m) before any stress is computed. Raises SceneError where nothing passes, y = 0 is no plane of symmetry, or a stress
-    is no number.
+    reader: see :class:`tehl_taichi.fatigue.stress.histories.StressHistories`. residual: Pa or (depth, Pa) rows, in place of the
+    scene's fatigue.residual_xx and tables. check(x', deepest): called with the extent (m) before any stress is computed. Raises
+    SceneError if the run has no passage, if y = 0 is no plane of symmetry, or if a stress is no number.
     """
     feature, centres = passing(scene, reader)
     scene = scene if residual is None else scene.replace(**WITHOUT_RESIDUAL)
@@ -106,7 +110,7 @@ def plane_of(scene, reader, residual=None, check=None, surface=None):
 
 
 def passing(scene, reader):
-    """(the first feature, where its centre is at every entry, m). Raises SceneError, see :func:`plane_of`."""
+    """First feature, and the position of its centre (m) at every entry. Raises SceneError, see :func:`plane_of`."""
     centres = np.array([reader.feature_x(n) for n in range(len(reader))])
     if len(reader) < 2 or not np.isfinite(centres).all():
         raise SceneError("a crack needs the passage of a feature: a scene with a feature and at least one time step")

@@ -1,4 +1,4 @@
-"""Trajectory of a crack that is everywhere normal to the largest principal stress of the body without it, at one moment.
+"""Trajectory of a crack: everywhere normal to the largest principal stress of the uncracked body at one moment.
 
 After Hannes & Alfredsson 2011 (Eng. Fract. Mech. 78, 2848), who followed it in the plane of symmetry below an asperity.
 """
@@ -16,7 +16,7 @@ NEAR = 1.5      # half widths of the feature: tension farther from its centre is
 
 @dataclass(frozen=True)
 class CrackStart:
-    """x (m) of the largest tension of the surface on one side, that tension (Pa), and the number of its moment."""
+    """Start of a crack: x (m) of the largest surface tension on one side, that tension (Pa), and the number of its moment."""
 
     x: float
     sigma1: float
@@ -24,8 +24,11 @@ class CrackStart:
 
 
 def start(plane, side, x=None):
-    """The :class:`CrackStart` on the "entry" side (behind the feature's centre, while that is before the middle of the contact)
-    or on the "exit" side, or at x (m) in that part of the passage; None where the surface is nowhere pulled then."""
+    """Find the :class:`CrackStart` on one side of the feature, or at a given x (m); None if nothing is under tension.
+
+    side: "entry" is behind the feature's centre, with the moments before the centre reaches the middle of the contact; "exit"
+    is ahead of it, with the other moments.
+    """
     sign = -1 if side == "entry" else 1
     moments = np.flatnonzero(sign * plane.centres > 0)  # not the unloaded one
     from_feature = sign * plane.distance[:, moments]
@@ -41,7 +44,7 @@ def start(plane, side, x=None):
 
 
 def trajectory(plane, origin, length):
-    """(points (m, complex), largest principal stress (Pa) at them) from the mouth on, by midpoint steps."""
+    """Trajectory from the mouth on, by midpoint steps. Returns (points (m, complex), largest principal stress (Pa) at them)."""
     da, z, way = STEP * length, complex(origin.x, 0.0), 1j
     points: list[complex] = []
     tension: list[float] = []
@@ -58,7 +61,7 @@ def trajectory(plane, origin, length):
 
 
 def _across(plane, z, moment, way):
-    """(largest principal stress, unit direction normal to its own) at z, the one of both that continues along `way`."""
+    """Largest principal stress at z, and the unit direction normal to it that continues along `way`."""
     stress = plane.at(np.array([z]), slice(moment, moment + 1))[0, 0]
     value, angle = principal(stress)
     direction = 1j * np.exp(1j * angle)

@@ -1,11 +1,11 @@
-"""Drafts of new files and folders: beside the final name, hidden and locked, renamed to it when it is whole.
+"""Drafts of new files and folders: made beside the final name, hidden and locked, then renamed to it.
 
-So a store, a figure, an export appears whole or not at all. Beside `NAME` there may be, with a dot before and one of these
-behind it:
-  .part  what is being made, or what a killed process left of it: cleaned up by the next draft in that folder
-  .old   the folder that --force replaces, for the moment between two renames: put back if the second never came
-  .gone  one that is being removed
-Each is a folder with a lock; one whose lock does not say that it is ours is left alone.
+So a store, a figure or an export appears complete or not at all. Beside `NAME` there may be hidden folders, whose names begin
+with a dot and end with:
+  .part  an unfinished draft; the next draft in the folder cleans up those of killed processes
+  .old   the folder that --force replaces, between two renames; restored if the second rename never happened
+  .gone  a folder that is being removed
+Each has a lock; one whose lock does not belong to this program is left alone.
 """
 
 import contextlib
@@ -23,14 +23,14 @@ PART, OLD, GONE = "part", "old", "gone"
 
 
 def staging_path(path, what):
-    """The hidden folder beside a name, see above."""
+    """Path of the hidden folder beside a name, see above."""
     return path.with_name(f".{path.name}.{what}")
 
 
 class Draft:
-    """The name `path`, reserved for what :meth:`publish` puts there; replace: also where something stands.
+    """Reserve the name `path` for the result that :meth:`publish` puts there; replace: also if it exists.
 
-    Raises StoreError where nothing can be made, or what is there may not be replaced; Busy.
+    Raises StoreError if nothing can be made there, or an existing result may not be replaced; Busy.
     """
 
     def __init__(self, path, replace=False):
@@ -50,7 +50,7 @@ class Draft:
             raise
 
     def allowed(self, replace):
-        """The lock of the folder that is replaced, None where there is none. Raises StoreError where `path` may not be made."""
+        """Lock of the folder that is to be replaced, None without one. Raises StoreError if `path` may not be made."""
         raise NotImplementedError
 
     def __enter__(self):
@@ -71,7 +71,7 @@ class Draft:
             raise Busy(exists(self.path))
 
     def _locked(self):
-        """The lock of the hidden folder, which is new, or what a killed process left. Raises Busy for anything else."""
+        """Lock of the hidden folder, which is new or left by a killed process. Raises Busy for anything else."""
         while True:
             try:
                 self.folder.mkdir()
@@ -83,8 +83,9 @@ class Draft:
                 continue  # its last owner removed the folder between the two lines
 
     def publish(self, made=None):
-        """Give the hidden folder, or `made` in it, the name; what stood there is removed. Raises StoreError where something
-        else has come there."""
+        """Rename the hidden folder, or `made` in it, to the final name; removes the replaced result. Raises StoreError if
+        something else has appeared there.
+        """
         aside = staging_path(self.path, OLD)
         try:
             if self.old:
@@ -104,7 +105,7 @@ class Draft:
             remove(trash, self.old)
 
     def give_up(self):
-        """Remove what was made so far, unless it is published; what stood at the name before stays."""
+        """Remove an unpublished draft; an existing result with the final name stays."""
         if self.published:
             return
         put_back(self.path)  # Ctrl-C came between the renames
@@ -118,7 +119,7 @@ class Draft:
 
 
 def _put(made, path, replaces):
-    """Rename; a file takes no name that another one has, unless it replaces it."""
+    """Rename; a file does not overwrite another one unless it replaces it."""
     if made.is_dir() or replaces:
         os.rename(made, path)
         return
@@ -131,7 +132,7 @@ def _put(made, path, replaces):
 
 
 def put_back(path):
-    """Undo half a replacement: the old folder gets its name back where the new one never came."""
+    """Undo half a replacement: rename the old folder back if the new one never appeared."""
     aside = staging_path(path, OLD) if path.name else None
     if aside and not os.path.lexists(path) and _ours(aside):
         with contextlib.suppress(OSError):  # a read-only folder, or another process was faster
@@ -139,7 +140,7 @@ def put_back(path):
 
 
 def clean(folder):
-    """Remove what killed processes of this host left unfinished in `folder`; an old store only where a new one stands."""
+    """Remove unfinished drafts of killed processes of this host in `folder`; an old store only if a new one exists."""
     for what in (PART, GONE, OLD):
         for leftover in folder.glob(f".*.{what}"):
             new = folder / leftover.name[1 : -len(what) - 1]
@@ -149,12 +150,12 @@ def clean(folder):
 
 
 def _replaced(old, new):
-    """Whether a folder of the same kind stands where the old one stood."""
+    """Whether a folder of the same kind has replaced the old one."""
     return is_folder(new) and (new / ROOT).is_file() >= (old / ROOT).is_file()
 
 
 def _ours(folder):
-    """Whether a hidden folder was made by this program for this user: a folder, no link, whose lock says so."""
+    """Whether a hidden folder (no link) was made by this program for this user, by its lock."""
     return is_folder(folder) and _own(folder) and bool(lock_content(folder))
 
 
@@ -163,7 +164,7 @@ def _own(folder):
 
 
 def _check_ours(folder):
-    """Raises Busy where a hidden folder is nothing that a killed process of ours left."""
+    """Raise Busy for a hidden folder that no killed process of this program left."""
     with contextlib.suppress(FileNotFoundError):  # its owner removes it now
         left = set(os.listdir(folder)) if is_folder(folder) else None
         new = left == set() or left == {LOCK} and not os.path.getsize(folder / LOCK)
@@ -173,8 +174,7 @@ def _check_ours(folder):
 
 
 def unmade(path):
-    """The error that says what exists of a store that has not appeared at `path` yet, Busy while it is being written; or
-    None."""
+    """Error about a store that has not appeared at `path` yet (Busy while it is being written), or None."""
     folder = staging_path(Path(path), PART)
     if not is_folder(folder):
         return None
@@ -184,13 +184,14 @@ def unmade(path):
 
 
 def _parents(path):
-    """Folders above `path` that do not exist yet, the innermost first."""
+    """Missing folders above `path`, the innermost first."""
     return [folder for folder in path.absolute().parents if not folder.exists()]
 
 
 def remove(folder, lock):
-    """Remove a folder with what names it and its lock last, so that half of it is still known for what it is; links in it go,
-    not what they lead to."""
+    """Remove a folder, its marker file and lock last, so that an unfinished removal can be recognised; links are removed, not
+    their targets.
+    """
     try:
         for child in sorted(folder.iterdir(), key=lambda one: one.name == ROOT):
             if child.name != LOCK:
@@ -207,5 +208,5 @@ def _remove(path):
 
 
 def exists(path):
-    """Words: something exists at `path`."""
+    """Text: something exists at `path`."""
     return f"{path} exists already; choose another --out, or use --force to replace it"

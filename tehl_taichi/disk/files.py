@@ -1,4 +1,4 @@
-"""One file: replaced as a whole or left as it was; never written through a link, never read where it is no plain file."""
+"""Single files: replaced as a whole or unchanged; never written through a link; only plain files are read."""
 
 import contextlib
 import errno
@@ -18,14 +18,15 @@ UNFOLLOWING = getattr(os, "O_NOFOLLOW", 0) | UNWAITING
 
 
 def replace(path, content):
-    """Write bytes to `path` under another name first. Raises OSError, and then leaves no half of it."""
+    """Replace the content of `path` atomically. Raises OSError, and then leaves `path` unchanged."""
     with aside(path) as temporary:
         write(temporary, content)
 
 
 def write(path, content):
-    """Write bytes to a path that has no reader yet, in place of what has that name. Raises OSError, and then may leave half of
-    them."""
+    """Write bytes to `path`, which has no reader yet, in place of an existing file. Raises OSError, and may then leave an
+    incomplete file.
+    """
     try:
         file = open(path, "xb")
     except FileExistsError:
@@ -37,8 +38,9 @@ def write(path, content):
 
 @contextlib.contextmanager
 def aside(path):
-    """Another name to write to, which becomes `path` at the end of the block. Raises OSError; whatever ends the block before
-    leaves no half of it."""
+    """Context manager: a temporary name, renamed to `path` at the end of the block. Raises OSError; no incomplete file is
+    left.
+    """
     temporary = path.with_name(f".{path.name[:60]}.{secrets.token_hex(8)}.tmp")
     try:
         yield temporary
@@ -50,19 +52,21 @@ def aside(path):
 
 
 def append(path, content):
-    """Add bytes to a file, which is made where there is none. Raises OSError, also for a link."""
+    """Append bytes to a file, which is created if missing. Raises OSError, also for a link."""
     with os.fdopen(opened(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT), "ab") as file:
         file.write(content)
 
 
 def cut(path, size):
-    """Cut a file off behind so many bytes. Raises OSError, also for a link."""
+    """Truncate a file to `size` bytes. Raises OSError, also for a link."""
     with os.fdopen(opened(path, os.O_RDWR), "r+b") as file:
         file.truncate(size)
 
 
 def opened(path, flags):
-    """Descriptor of a plain file that has this name alone. Raises OSError, also for a link and for a special file."""
+    """Open a plain file that has no other name; returns the descriptor. Raises OSError, also for a link and for a special
+    file.
+    """
     try:
         found = os.open(path, flags | UNFOLLOWING, 0o666)
     except OSError as error:
@@ -75,7 +79,7 @@ def opened(path, flags):
 
 
 def content(path, most=TEXT):
-    """Bytes of a plain file, read through links too. Raises OSError where it is none, or has more than `most` bytes."""
+    """Bytes of a plain file, also read through links. Raises OSError if it is none, or has more than `most` bytes."""
     with os.fdopen(os.open(path, os.O_RDONLY | UNWAITING), "rb") as file:
         status = os.fstat(file.fileno())
         if stat.S_ISDIR(status.st_mode):
@@ -88,12 +92,12 @@ def content(path, most=TEXT):
 
 
 def text(path):
-    """The text of a plain file. Raises as :func:`content`; ValueError where it is no text."""
+    """Text of a plain file. Raises as :func:`content`; ValueError if it is no text."""
     return content(path).decode("utf-8")
 
 
 def json_of(path):
-    """Content of a JSON file. Raises as :func:`content`; ValueError where it is none, or nested without end."""
+    """Content of a JSON file. Raises as :func:`content`; ValueError if it is no JSON or nested too deeply."""
     try:
         return json.loads(text(path))
     except RecursionError:
@@ -101,14 +105,14 @@ def json_of(path):
 
 
 def tidy(folder):
-    """Remove what killed writers left of single files in a folder that only this process writes."""
+    """Remove temporary files of killed writers in a folder that only this process writes."""
     for entry in os.scandir(folder):
         if TEMPORARY.fullmatch(entry.name) and entry.is_file(follow_symlinks=False):
             os.unlink(entry.path)
 
 
 def reason(error):
-    """An OSError in words."""
+    """Text of an OSError."""
     return error.strerror or str(error)
 
 

@@ -1,4 +1,4 @@
-"""Links and special files: a folder that holds one is read, but not written."""
+"""Links and special files: a folder that contains one can be read, but not written."""
 
 import os
 import stat
@@ -10,8 +10,9 @@ MARKS = ROOT, FLANK, *_ = "zarr.json", "flank.json", "bearing.json", "cam.json" 
 
 
 def refuse(folder):
-    """Raises StoreError where `folder`, or anything in it, is a link, a file with a second name, or no plain file; also where
-    a link leads to it inside a study or a flank."""
+    """Raise StoreError if `folder` or anything in it is a link, has a second name or is a special file; also if a link inside a
+    study or flank leads to it.
+    """
     folder = Path(folder)
     for path in (*_ways(folder), folder, *_below(folder)):
         if what := strange(os.lstat(path)):
@@ -21,7 +22,7 @@ def refuse(folder):
 
 
 def strange(status):
-    """Kind of an entry (os.lstat) that is never written to, as text; "" for folders and files."""
+    """Kind of an entry (of os.lstat) that is never written to, as text; "" for folders and files."""
     if stat.S_ISDIR(status.st_mode):
         return ""
     if stat.S_ISLNK(status.st_mode):
@@ -37,20 +38,22 @@ def is_folder(path):
 
 
 def refuse_itself(path):
-    """Raises StoreError where a folder to write into is a link."""
+    """Raise StoreError if a folder to write into is a link."""
     if os.path.islink(path):
         raise StoreError(f"{path} is a link, and tehl does not write through links; choose another --out")
 
 
 def around(path):
-    """Folders of results around a path (studies, flanks ...), the innermost first, by its name and by where its links lead."""
+    """Result folders (studies, flanks ...) that contain a path, the innermost first, by its name and by the targets of its
+    links.
+    """
     ways = path.absolute().parent, Path(os.path.realpath(path.absolute().parent))
     return [folder for way in ways for folder in (way, *way.parents)
             if any(os.path.lexists(folder / mark) for mark in MARKS)]
 
 
 def _ways(folder):
-    """The links inside a study or a flank that the name of `folder` leads through."""
+    """Links inside a study or a flank through which the name of `folder` leads."""
     absolute = folder.absolute()
     found = [top for top in around(folder) if absolute.is_relative_to(top)]
     return [way for way in absolute.parents if found and way.is_relative_to(found[-1]) and way != found[-1]
@@ -58,7 +61,7 @@ def _ways(folder):
 
 
 def _below(folder):
-    """Generator of the paths of all that is in a folder, which is not left through a link."""
+    """Generator of the paths of all entries below a folder, without following links."""
     if is_folder(folder):
         with os.scandir(folder) as entries:
             for entry in sorted(entries, key=lambda one: one.name):

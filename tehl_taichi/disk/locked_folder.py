@@ -1,4 +1,4 @@
-"""Folders that are written under a lock: opened whole or let go, closed at the end of a `with`."""
+"""Folders that are written under a lock: opened completely or released, closed at the end of a `with`."""
 
 
 from tehl_taichi.disk import links
@@ -7,7 +7,7 @@ from tehl_taichi.disk.locks import Lock
 
 
 class LockedFolder:
-    """A folder on disk that only this process writes as long as it has a `lock`."""
+    """A folder on disk that only this process writes while it holds the `lock`."""
 
     lock = None
 
@@ -18,15 +18,16 @@ class LockedFolder:
         self.close()
 
     def close(self):
-        """Let others write; what is stored can still be read."""
+        """Release the lock; stored data can still be read."""
         if self.lock:
             self.lock.release()
             self.lock = None
 
 
 def locked_folder(path, opened):
-    """`opened(lock)` under the lock of the folder `path`, which is let go where that fails. Raises StoreError, also where it
-    holds a link; Busy."""
+    """Call `opened(lock)` with the lock of the folder `path`; releases it on failure. Raises StoreError, also for links in it;
+    Busy.
+    """
     links.refuse(path)
     with blamed(path, "cannot write to"):
         lock = Lock(path)

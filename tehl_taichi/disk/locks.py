@@ -1,6 +1,6 @@
-"""One writer at a time: a lock file in the folder that is written, held by the kernel as long as its process lives.
+"""One writer at a time: a lock file in the folder, held by the kernel as long as its process lives.
 
-What the file says (process, host, since when) is for people, and for hosts that share the folder but not the kernel.
+The content of the file (process, host, since when) is for people, and for hosts that share the folder but not the kernel.
 """
 
 import json
@@ -18,12 +18,14 @@ PATIENCE = 0.25  # s: whoever only looks whether a lock is held keeps it for mic
 
 
 class Busy(StoreError):
-    """Another process writes there, or may do so."""
+    """Another process writes in this folder, or may do so."""
 
 
 class Lock:
-    """The right to write below `folder`; taken over from dead processes of this host. Raises Busy, StoreError where a file that
-    is no lock has its name, or OSError where it cannot be written (it may be a link)."""
+    """The right to write below `folder`; taken over from dead processes of this host.
+
+    Raises Busy, StoreError if a file that is no lock has its name, or OSError if it cannot be written (it may be a link).
+    """
 
     def __init__(self, folder, name=None):
         self.path, self.name = Path(folder) / LOCK, name or folder
@@ -44,11 +46,11 @@ class Lock:
             raise
 
     def moved(self, folder):
-        """The locked folder has another name now."""
+        """Record the new name of the locked folder."""
         self.path = Path(folder) / LOCK
 
     def release(self):
-        """Remove the file, then let the kernel's lock go."""
+        """Remove the lock file, then release the kernel's lock."""
         if not self.file.closed:
             if _same(self.file, self.path):
                 self.path.unlink(missing_ok=True)
@@ -56,7 +58,7 @@ class Lock:
 
 
 def holder(folder):
-    """Who writes below `folder` at this moment, in words, or None."""
+    """Description of the process that is writing below `folder`, or None."""
     try:
         with _to_read(folder) as file:
             return _words(_read(file)) if not _lock(file, shared=True) else None
@@ -74,7 +76,7 @@ def lock_content(folder):
 
 
 def abandoned(folder):
-    """Whether `folder` has a lock of this program that no process on this host holds any more."""
+    """Whether `folder` has a lock of this program that no process of this host holds."""
     try:
         with _to_read(folder) as file:
             content = _read(file)
@@ -88,7 +90,7 @@ def _to_read(folder):
 
 
 def _taken(path, name):
-    """The lock file, opened and locked. Raises Busy."""
+    """Open and lock the lock file. Raises Busy."""
     until = time.monotonic() + PATIENCE
     while True:
         file = os.fdopen(files.opened(path, os.O_RDWR | os.O_CREAT), "r+")
@@ -102,7 +104,9 @@ def _taken(path, name):
 
 
 def _lock(file, shared=False):
-    """Whether the kernel's lock could be had; where there is none (some network folders), whether the process is gone."""
+    """Whether the kernel's lock was acquired; where the kernel has none (some network folders), whether the process has
+    ended.
+    """
     try:
         import fcntl
 
@@ -128,7 +132,7 @@ def _alive(pid):
 
 
 def _same(file, path):
-    """Whether the open file still is the one of that name: its last owner may have removed it meanwhile."""
+    """Whether the open file still has this name: its last owner may have removed it meanwhile."""
     try:
         return os.path.samestat(os.fstat(file.fileno()), os.lstat(path))
     except OSError:

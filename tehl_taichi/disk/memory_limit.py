@@ -1,4 +1,4 @@
-"""Memory: how much this process can have, and a refusal before more than that is requested."""
+"""Memory: amount available to this process, and a check before a large request."""
 
 import contextlib
 import math
@@ -13,14 +13,14 @@ SHARE = 0.95  # of what is available: the rest of the process needs some, too
 
 
 def check(needed, what, kind=SceneError):
-    """Raises an error of that kind where `what` needs more bytes than this process can have."""
+    """Raise an error of class `kind` if `what` needs more bytes than are available."""
     there = available()
     if needed > SHARE * there:
         raise kind(f"{what} needs {words(needed)} of memory; {words(there)} are available")
 
 
 def available():
-    """Bytes that this process can still have: by the machine, by its control groups and by its own limits."""
+    """Bytes available to this process: by the machine, its control groups and its own limits."""
     return max(0.0, min(_of_machine(), _of_groups(), *_of_process()))
 
 
@@ -49,7 +49,7 @@ def _of_process():
 
 
 def _table(path):
-    """{name: bytes} of a file of lines "name: number kB"."""
+    """{name: bytes} of a file with lines "name: number kB"."""
     with contextlib.suppress(OSError, ValueError):
         lines = (line.split() for line in path.read_text().splitlines())
         return {words[0].rstrip(":"): 1024.0 * float(words[1]) for words in lines if words[-1:] == ["kB"]}

@@ -1,4 +1,4 @@
-"""Arrays in numpy's own files, whose headers are believed only as far as the file goes."""
+"""Numpy files; their headers are trusted only up to the size of the file."""
 
 import math
 import os
@@ -12,8 +12,9 @@ HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.re
 
 
 def load(path):
-    """The array of a .npy file. Raises ValueError where it is none, or declares more than it holds; SceneError where there is
-    no room for it; OSError."""
+    """Load the array of a .npy file. Raises ValueError if it is none or declares more than it holds; SceneError without enough
+    memory; OSError.
+    """
     with open(path, "rb") as file:
         memory_limit.check(3 * declared(file, os.fstat(file.fileno()).st_size), f"{path}, with its copies,")
         file.seek(0)
@@ -21,7 +22,7 @@ def load(path):
 
 
 def load_all(path):
-    """{name: array} of an .npz file that is not compressed, as ours are. Raises ValueError, OSError, zipfile.BadZipFile."""
+    """Load {name: array} of an uncompressed .npz file. Raises ValueError, OSError, zipfile.BadZipFile."""
     with zipfile.ZipFile(path) as archive:
         members, size = archive.infolist(), os.path.getsize(path)
         if any(member.compress_type != zipfile.ZIP_STORED for member in members) or sum(m.file_size for m in members) > size:
@@ -34,8 +35,9 @@ def load_all(path):
 
 
 def declared(file, size):
-    """Bytes of the array that the header of an open .npy file of `size` bytes declares. Raises ValueError where the file does
-    not hold them."""
+    """Number of bytes that the header of an open .npy file declares. Raises ValueError if the file, of `size` bytes, is too
+    short for them.
+    """
     version = np.lib.format.read_magic(file)
     if version not in HEADERS:
         raise ValueError(f"its format {version[0]}.{version[1]} is not known")

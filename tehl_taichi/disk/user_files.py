@@ -1,7 +1,7 @@
-"""Files that a command writes for people: figures, films, pages, tables. One rule for every --out.
+"""Output files for users: figures, films, pages, tables. One rule for every --out.
 
-An existing file stays, unless --force is given; --force replaces a file that tehl wrote, known by its content, and nothing
-else; nothing is written inside a store, a study or a flank, nor through a link.
+An existing file stays unless --force is given. --force replaces only a file that tehl wrote, recognised by its content. Nothing
+is written inside a store, a study or a flank, nor through a link.
 """
 
 import contextlib
@@ -26,7 +26,7 @@ SIGNS = {"png": (b"\x89PNG", b"Software\0tehl_taichi"), "pdf": (b"%PDF-", b"/Cre
 
 
 class UserFile(Draft):
-    """A file or folder at `path` that is made as `draft` and appears with :meth:`publish`; see :func:`check` for the rest."""
+    """A file or folder at `path` that is made as `draft` and appears with :meth:`publish`; see :func:`check`."""
 
     def __init__(self, path, force=False, kind="", parts="", of=None):
         self.kind_parts_of = kind, parts, of
@@ -44,10 +44,10 @@ class UserFile(Draft):
 
 
 def check(path, force=False, kind="", parts="", of=None):
-    """Raises StoreError where a command may not write to `path`.
+    """Raise StoreError if a command may not write to `path`.
 
-    force: whether a file of ours is replaced; kind: of the file, as its usual suffix (default: as `path` has it); parts: where
-    it is a folder, a regular expression of the names in it; of: the flank's folder where the file is its own figure.
+    force: replace a file of ours; kind: of the file, as its usual suffix (default: suffix of `path`); parts: for a folder, a
+    regular expression of the names in it; of: the flank's folder, if the file is its own figure.
     """
     check_outside(path, of)
     if not os.path.lexists(path):
@@ -63,7 +63,7 @@ def check(path, force=False, kind="", parts="", of=None):
 
 
 def check_outside(path, of=None):
-    """Raises StoreError where `path` lies inside a store, study, flank, bearing or cam other than `of`."""
+    """Raise StoreError if `path` lies inside a store, study, flank, bearing or cam other than `of`."""
     for folder in links.around(path):
         if not (of and os.path.samefile(folder, of)):
             raise StoreError(f"{path} lies in {folder}, which holds results of tehl; choose another --out")
@@ -83,7 +83,7 @@ def _check_ours(path, kind=""):
 
 
 def is_ours(path, kind=""):
-    """Whether a file was written by a command of tehl, by its content; kind: as :func:`check` has it."""
+    """Whether a command of tehl wrote a file, by its content; kind: see :func:`check`."""
     kind = kind or path.suffix[1:].lower()
     with open(path, "rb") as file:
         if kind == "csv":
@@ -97,14 +97,15 @@ def is_ours(path, kind=""):
 
 @contextlib.contextmanager
 def made(path, force=False, **what):
-    """Where to write what appears at `path` at the end of the block, whole or not at all; what: as :func:`check` has it. Raises
-    StoreError, also for what the disk refuses."""
+    """Context manager: a temporary path whose content appears at `path` at the end of the block; arguments: see :func:`check`.
+    Raises StoreError, also for disk errors.
+    """
     with blamed(path), UserFile(path, force, **what) as output:
         yield output.draft
         output.publish()
 
 
 def text(path, content, force=False, **what):
-    """Write text to `path`, as :func:`made`."""
+    """Write text to `path`; arguments: see :func:`made`."""
     with made(path, force, **what) as draft:
         draft.write_text(content, encoding="utf-8")

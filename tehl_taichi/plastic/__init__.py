@@ -1,6 +1,6 @@
-"""Plastic flow of the steel below the surface: what a passage leaves of it, as strain, residual stress and a new surface.
+"""Plastic flow of the steel below the surface: plastic strain, residual stress and surface change that a passage leaves.
 
-`half_space` answers plastic strain in layers with residual stress and sinking of the surface, `flow` is the return to the flow
-stress at points, `steel_body` follows a body through moments of a passage, `elastic_loads` finds the stresses of these.
-`surface_change` is what a passage sees of it, `run_in` repeats passages. May import: values, laws, scene, fatigue.
+`half_space` computes residual stress and surface displacement of plastic strain in layers; `flow` is the return mapping at
+points; `steel_body` follows a body through the moments of a passage; `elastic_loads` finds its elastic stresses.
+`surface_change` is the change as a passage uses it, `run_in` repeats passages. May import: values, laws, scene, fatigue.
 """

@@ -1,6 +1,7 @@
 """Elastic stresses of a passage in the cells that may yield, moment by moment.
 
-First a look at some layers and some of the moments whose pressure may yield anything: where nothing comes near, that is all.
+First some layers are computed at those moments whose pressure may cause yielding. If none of them comes near yielding, nothing
+more is computed.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -21,22 +22,25 @@ SOME = 3        # moments of the first look, besides those of the highest pressu
 
 @dataclass(frozen=True)
 class ElasticLoads:
-    """moments: [(cells (layers, x, y) numbers, stress (n, 6) Pa)] of the cells that may yield; largest: von Mises stress, with
-    the residual one, over the flow stress, of all cells and moments that were looked at."""
+    """Elastic loads of a passage.
+
+    moments: [(cell numbers (layers, x, y), stress (n, 6) Pa)] of the cells that may yield; largest: largest ratio of von Mises
+    stress (with residual stress) to flow stress over all computed cells and moments.
+    """
 
     moments: list
     largest: float
 
 
 def histories(scene, reader, surface):
-    """The :class:`StressHistories` of a passage, with all of its moments and shear."""
+    """The :class:`StressHistories` of a passage with all of its moments and shear."""
     whole = replace(scene.fatigue, from_x=-np.inf, to_x=np.inf, shear=True)
     positions = np.array([reader.feature_x(n) for n in range(len(reader))])
     return StressHistories(replace(scene, fatigue=whole), reader, positions, surface=surface)
 
 
 def find(passage, cells, state):
-    """The :class:`ElasticLoads` of a passage over :class:`tehl_taichi.plastic.steel_body.Cells` in a SteelState."""
+    """Find the :class:`ElasticLoads` of a passage. cells: :class:`tehl_taichi.plastic.steel_body.Cells`; state: SteelState."""
     look = _Look(passage, cells, state)
     count = cells.layers.count
     found = {layer: look.at(layer, look.first) for layer in range(0, count, EVERY)}
@@ -50,14 +54,16 @@ def find(passage, cells, state):
 
 
 def _beside(found, layer):
-    """Largest von Mises stresses of the layers of the first look at a layer and on both sides of it."""
+    """Largest von Mises stress ratios of the first-computed layers at and beside a layer."""
     sides = {layer - layer % EVERY, layer - layer % EVERY + EVERY * (layer % EVERY > 0)} & found.keys()
     return [max((seen.largest for seen in found[n].values()), default=0.0) for n in sides]
 
 
 @dataclass(frozen=True)
 class _Seen:
-    """A layer at a moment: the largest von Mises stress over the flow stress, the cells close to it, their stress."""
+    """Result of a layer at a moment: largest ratio of von Mises stress to flow stress, cells close to yielding, their
+    stresses.
+    """
 
     largest: float
     places: np.ndarray
@@ -65,7 +71,7 @@ class _Seen:
 
 
 class _Look:
-    """Stresses of a passage in layers, beside what steel flows at there."""
+    """Elastic stresses of a passage in layers, compared with their flow stress."""
 
     def __init__(self, passage, cells, state):
         self.passage, self.state, self.depths = passage, state, cells.layers.depths
@@ -77,8 +83,9 @@ class _Look:
         self.first = [self.times[n] for n in sorted({*range(0, p.size, SOME), *top})]
 
     def _moments(self, limit):
-        """{number: largest pressure} of the moments that are pressed and apart enough; none of the steady start, where nothing
-        flows."""
+        """{number: largest pressure} of the moments with enough pressure, thinned out; the steady start is left out (nothing
+        flows in it).
+        """
         passage = self.passage
         stride = max(1, int(APART * passage.a / passage.dx + 1e-9))
         way = np.abs(passage.centres - passage.centres[0]) / passage.dx
@@ -87,7 +94,7 @@ class _Look:
         return {t: p for t, p in pressures.items() if p > PRESSED * limit}
 
     def around(self, moments):
-        """All moments up to SOME away from these of the first look."""
+        """Numbers of all moments that are at most SOME away from the given first-computed ones."""
         places = {self.times.index(t) + n for t in moments for n in range(-SOME, SOME + 1)}
         return [t for n, t in enumerate(self.times) if n in places]
 
@@ -115,6 +122,6 @@ class _Look:
 
 
 def _joined(seen):
-    """(places, stress) of all layers of a moment."""
+    """(cell numbers, stresses) of all layers of a moment, joined."""
     places, stress = [one.places for one in seen], [one.stress for one in seen]
     return tuple(np.concatenate(places, axis=1)), np.concatenate(stress).astype(float)

@@ -7,21 +7,21 @@ HALVINGS = 50  # of the interval of the plastic strain: to its last digit
 
 
 def deviator(stress):
-    """Stress (..., 6) without its pressure."""
+    """Deviatoric part of stresses (..., 6)."""
     out = np.array(stress, float)
     out[..., :3] -= out[..., :3].mean(axis=-1, keepdims=True)
     return out
 
 
 def equivalent(deviatoric):
-    """Von Mises stress (...) of a deviator (..., 6)."""
+    """Von Mises stress (...) of deviatoric stresses (..., 6)."""
     return np.sqrt(1.5 * (WEIGHTS * deviatoric * deviatoric).sum(axis=-1))
 
 
 def returned(trial, hardened, flow_stress, G):
-    """(plastic strain (n, 6), equivalent plastic strain (n,)) that a deviatoric trial stress (n, 6) leaves.
+    """Return mapping: (plastic strain (n, 6), equivalent plastic strain (n,)) of deviatoric trial stresses (n, 6).
 
-    hardened: equivalent plastic strain before; flow_stress: function of it, Pa; G: shear modulus, Pa.
+    hardened: equivalent plastic strain before; flow_stress: its function, Pa; G: shear modulus, Pa.
     """
     size = equivalent(trial)
     more = _increment(size, hardened, flow_stress, G)
@@ -29,7 +29,9 @@ def returned(trial, hardened, flow_stress, G):
 
 
 def _increment(size, hardened, flow_stress, G):
-    """Increment of the plastic strain: size - 3 G more = flow_stress(hardened + more), 0 where size is below that."""
+    """Increment of plastic strain: solves size - 3 G more = flow_stress(hardened + more); 0 where size is below the flow
+    stress.
+    """
     low, high = np.zeros_like(size), np.maximum(size - flow_stress(hardened), 0.0) / (3 * G)
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)

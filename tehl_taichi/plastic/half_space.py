@@ -1,7 +1,8 @@
 """Residual stress and surface displacement of plastic strain in layers of an elastic half-space.
 
-Waves along x and y, one linear element a layer in depth: each wave is a system of three displacements at the interfaces of the
-layers, whose matrix is real with i u_x and i u_y as unknowns. Components: xx, yy, zz, xy, xz, yz (tensor), z into the body.
+Fourier waves along x and y, one linear element per layer in depth. Each wave is a system of three displacements at the
+interfaces of the layers; with i u_x and i u_y as unknowns its matrix is real. Components: xx, yy, zz, xy, xz, yz (tensor), z
+into the body.
 """
 
 import numpy as np
@@ -11,7 +12,7 @@ PAD = 2.0            # lengths of the region after which it repeats
 
 
 def odd_length(n):
-    """Smallest odd length >= n that is quick to transform; 1 of a single row."""
+    """Smallest odd length >= n with a fast transform; 1 for a single row."""
     n = n | 1
     while n > 1 and _rest(n) > 1:
         n += 2
@@ -26,8 +27,9 @@ def _rest(n):
 
 
 class LayeredHalfSpace:
-    """Half-space of `body` under a region of cells of sides dx, dy (m), `shape` of them; layers: a
-    :class:`tehl_taichi.plastic.layers.Layers`."""
+    """Half-space of `body` below a region of `shape` cells with sides dx, dy (m); layers: a
+    :class:`tehl_taichi.plastic.layers.Layers`.
+    """
 
     def __init__(self, body, shape, sides, layers, pad=PAD):
         self.shape, self.h, self.count = shape, layers.thickness, layers.count
@@ -40,7 +42,9 @@ class LayeredHalfSpace:
         self._factorise()
 
     def _factorise(self):
-        """Eliminate interfaces from the fixed bottom up: inverse diagonal blocks, and blocks towards the interface below."""
+        """Eliminate the interfaces from the fixed bottom up; stores inverse diagonal blocks and the blocks towards the
+        interface below.
+        """
         blocks = [self._blocks(h) for h in self.h]
         self.inverse, self.below = [], [block[:3, 3:] for block in blocks]
         above = 0.0
@@ -52,7 +56,7 @@ class LayeredHalfSpace:
                 above = np.einsum("ijk,jlk,mlk->imk", towards, self.inverse[0], towards)
 
     def _blocks(self, h):
-        """(6, 6, waves): forces at both interfaces of a layer from displacements there."""
+        """Stiffness (6, 6, waves) of a layer: forces at its two interfaces by their displacements."""
         out = np.empty((6, 6, self.kx.size))
         for n in range(6):
             u = np.zeros((6, self.kx.size))
@@ -61,13 +65,13 @@ class LayeredHalfSpace:
         return out
 
     def _strain(self, u, h):
-        """Strain (6, waves) in a layer from the displacements (6, waves) at both of its interfaces."""
+        """Strain (6, waves) in a layer by the displacements (6, waves) at its two interfaces."""
         (x, y, z), (dx, dy, dz) = 0.5 * (u[:3] + u[3:]), (u[3:] - u[:3]) / h
         kx, ky = self.kx, self.ky
         return np.stack([-kx * x, -ky * y, dz, -0.5 * (ky * x + kx * y), 0.5 * (dx + kx * z), 0.5 * (dy + ky * z)])
 
     def _forces(self, s, h):
-        """Forces (6, waves) at both interfaces that a stress (6, waves) in a layer needs."""
+        """Forces (6, waves) at the two interfaces of a layer that balance a stress (6, waves) in it."""
         kx, ky = self.kx, self.ky
         mean = 0.5 * h * np.stack([-kx * s[0] - ky * s[3], -ky * s[1] - kx * s[3], kx * s[4] + ky * s[5]])
         down = np.stack([s[4], s[5], s[2]])
@@ -80,8 +84,11 @@ class LayeredHalfSpace:
         return out
 
     def answer(self, strain):
-        """(residual stress, displacement of the surface into the body in m (x, y)) of plastic strain (layers, 6, x, y); of its
-        first layers, where it has no more."""
+        """Response to plastic strain (layers, 6, x, y): (residual stress, displacement of the surface into the body, m, (x,
+        y)).
+
+        The strain may have fewer layers than the half-space; the layers below are elastic.
+        """
         waves = self._waves(strain)
         u = self._solve(self._loads(waves))
         found = np.stack([self.stress(self._strain(np.concatenate([u[n], u[n + 1]]), self.h[n]) - wave)
@@ -99,19 +106,19 @@ class LayeredHalfSpace:
         return self._fields(found)
 
     def _waves(self, strain):
-        """(layers, 6, waves), xz and yz as the other displacements count them."""
+        """Fourier transform (layers, 6, waves) of a strain; xz and yz have the phase of the displacement unknowns."""
         waves = np.fft.rfft2(strain, self.size).reshape(*strain.shape[:2], -1)
         waves[:, 4:] /= 1j
         return waves
 
     def _fields(self, waves):
-        """Values (..., x, y) of the region."""
+        """Inverse transform: values (..., x, y) of the region."""
         shape = (*waves.shape[:-1], self.size[0], self.size[1] // 2 + 1)
         nx, ny = self.shape
         return np.fft.irfft2(waves.reshape(shape), self.size)[..., :nx, :ny]
 
     def _loads(self, waves):
-        """Forces (interfaces, 3, waves) that hold plastic strain, down to its deepest layer."""
+        """Forces (interfaces, 3, waves) that balance plastic strain, down to its deepest layer."""
         out = np.zeros((len(waves) + 1, 3, self.kx.size), complex)
         for n, wave in enumerate(waves):
             forces = self._forces(self.stress(wave), self.h[n])
@@ -120,7 +127,7 @@ class LayeredHalfSpace:
         return out
 
     def _solve(self, f):
-        """Displacements (interfaces, 3, waves) under forces, which it takes; none act below."""
+        """Displacements (interfaces, 3, waves) under forces (overwritten); no forces act below their last interface."""
         for n in range(len(f) - 1, 0, -1):
             f[n - 1] -= _times(self.below[n - 1], _times(self.inverse[n], f[n]))
         u = np.empty_like(f)
@@ -131,5 +138,5 @@ class LayeredHalfSpace:
 
 
 def _times(matrix, vector):
-    """Product of (3, 3, waves) and (3, waves)."""
+    """Products of matrices (3, 3, waves) with vectors (3, waves)."""
     return np.einsum("ijk,jk->ik", matrix, vector)

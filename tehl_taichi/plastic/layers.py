@@ -1,4 +1,4 @@
-"""Layers of a body in which steel may flow, and those below that only carry it."""
+"""Layers of a body: the upper ones may yield, the lower ones are elastic."""
 
 from dataclasses import dataclass
 
@@ -13,19 +13,19 @@ DEEPEST, FASTER = 25.0, 1.5  # depth (a) of the fixed bottom, and growth of the 
 
 @dataclass(frozen=True)
 class Layers:
-    """Thicknesses (m) of all layers from the surface down; steel may flow in the first `count`, which are not all."""
+    """Thicknesses (m) of all layers from the surface down; the first `count` may yield."""
 
     thickness: np.ndarray
     count: int
 
     @property
     def depths(self):
-        """Depths (m) of the middles of the layers in which steel may flow."""
+        """Depths (m) of the middles of the layers that may yield."""
         return (np.cumsum(self.thickness) - self.thickness / 2)[: self.count]
 
 
 def layers(a, spacing):
-    """The Layers of a contact of half-width a (m) on cells of `spacing` (m)."""
+    """Layers for a contact of half-width a (m) on cells of `spacing` (m)."""
     first = min(spacing, THINNEST * a)
     found = [first] * max(8, round(EVEN * a / first))
     while sum(found) < REACH * a:

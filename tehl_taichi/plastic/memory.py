@@ -1,4 +1,4 @@
-"""Memory that the flow of steel needs."""
+"""Memory that run-in needs."""
 
 from tehl_taichi.fatigue.stress.histories import MARGIN, WINDOW
 from tehl_taichi.plastic.half_space import PAD, odd_length
@@ -10,7 +10,7 @@ WAVE = 420.0  # bytes of a wave in a layer: blocks, strain, stress and their sum
 
 
 def needed(scene):
-    """Bytes that run-in of the scene needs beside its passage, within a quarter; 0 of a scene without."""
+    """Bytes that the run-in of a scene needs beside its passage, within 25 %; 0 without run-in."""
     if not scene.runs_in or not flowing(scene):
         return 0.0
     a, grid = Scales.of(scene).a, scene.grid
@@ -22,7 +22,7 @@ def needed(scene):
 
 
 def _cells(scene, a, side, axis, most):
-    """Cells of the region around the features along an axis: as far as the fatigue search looks."""
+    """Number of cells of the region around the features along an axis; it extends as far as the fatigue search."""
     reach = [(getattr(f, axis), f.reach if axis == "x" else f.reach_y) for f in scene.features]
     low, high = (max(WINDOW * a, *(sign * at + far + MARGIN * a for at, far in reach)) for sign in (-1, 1))
     return int(min((low + high) / side + 1, most))

@@ -1,7 +1,7 @@
-"""Run-in: passages are repeated, each on the surface and steel that the one before left, until no cell yields any more.
+"""Run-in: the passage is repeated, each time on the surface and steel that the last one left, until no cell yields.
 
-The steel of the first passage flows while it is loaded, so its pressures are those of a surface between the old and the new:
-it is repeated on a better surface until its pressures leave that one. Later passages change little and are taken once.
+During the first passage the steel flows under load, so its pressures belong to a surface between the old and the new one. This
+passage is repeated on better surfaces until it reproduces the surface it ran on. Later passages change little and run once.
 """
 
 from dataclasses import dataclass, field, replace
@@ -24,8 +24,9 @@ HALF = 0.5     # of the way to the new surface, in the second round; then by wha
 
 @dataclass(frozen=True)
 class BodyRunIn:
-    """A body before the passage that runs: what earlier ones left (start), sinking of the surface that this one sees (surface,
-    m), on x (m), y (m) of its frame and depths (m)."""
+    """Plastic state of a body before the current passage: start (left by earlier passages) and surface (sinking that this
+    passage sees, m), on x (m), y (m) of its frame and depths (m).
+    """
 
     x: np.ndarray
     y: np.ndarray
@@ -37,10 +38,13 @@ class BodyRunIn:
 
 @dataclass(frozen=True)
 class RunInState:
-    """Bodies by name, {} before the first passage; passages that were made, rounds of the one that runs, the sinking that its
-    last round left beyond its own surface (m), part of it that is taken; records of passages; done: nothing is left to do;
-    contained: see :func:`_contained`; unsettled: what the first passage left beyond its own surface (m) where that is more than
-    SAME of it."""
+    """State of a run-in.
+
+    bodies: by name, {} before the first passage; passages: completed ones; rounds: completed rounds of the current passage;
+    rest: change of sinking beyond its own surface that the last round left (m); part: share of it that was taken over; records:
+    numbers of passages; done: run-in is complete; contained: see :func:`_contained`; unsettled: change beyond its own surface
+    that the first passage left (m), if more than SAME of it.
+    """
 
     bodies: dict = field(default_factory=dict)
     passages: int = 0
@@ -54,22 +58,23 @@ class RunInState:
 
     @property
     def changes(self):
-        """The :class:`SurfaceChange` of each body that the passage sees; none before steel flows."""
+        """The :class:`SurfaceChange` of each body in the current passage; empty before steel yields."""
         return tuple(SurfaceChange(name, one.x, one.y, one.surface, one.mirrored) for name, one in self.bodies.items()
                      if one.surface.any())
 
     @property
     def residual_fields(self):
-        """{surface: :class:`ResidualField`} that passages before this one left."""
+        """{surface: :class:`ResidualField`} that earlier passages left."""
         return {name: ResidualField(one.x, one.y, one.depths, one.start.residual) for name, one in self.bodies.items()
                 if one.start.hardened.any()}
 
 
 def repeated(scene, march, state=RunInState(), keep=lambda state: None):
-    """(reader of the passage that is judged, RunInState) of a scene with run-in.
+    """Repeat passages of a scene with run-in. Returns (reader of the assessed passage, RunInState).
 
-    march(changes): the passage on these surfaces, a reader as :class:`tehl_taichi.fatigue.stress.histories.StressHistories`
-    takes it; keep(state): called before each further passage, and at the end.
+    march(changes): runs the passage on these surfaces, returns a reader for
+    :class:`tehl_taichi.fatigue.stress.histories.StressHistories`. keep(state): called before each further passage, and at the
+    end.
     """
     reader = march(state.changes)
     while not (state := following(scene, reader, state)).done:
@@ -80,7 +85,7 @@ def repeated(scene, march, state=RunInState(), keep=lambda state: None):
 
 
 def following(scene, reader, state):
-    """The RunInState after the passage of `reader`, which ran on the surfaces of `state`."""
+    """RunInState after the passage of `reader`, which ran on the surfaces of `state`."""
     cells = {s.name: _cells(scene, elastic_loads.histories(scene, reader, s)) for s in flowing(scene)}
     if not state.bodies:
         state = replace(state, bodies={name: _virgin(*one) for name, one in cells.items()})
@@ -95,7 +100,7 @@ def following(scene, reader, state):
 
 
 def _cells(scene, passage):
-    """(passage, its :class:`Cells`)."""
+    """(passage, its :class:`Cells`) of a surface."""
     law = HARDENINGS[passage.surface.body.hardening]
     below = layers(passage.a, passage.dx)
     limits = np.array([passage.strength.yield_stress(depth) for depth in below.depths])
@@ -115,12 +120,12 @@ def _virgin(passage, cells):
 
 
 def _after(passage, cells, start):
-    """The SteelState that a passage leaves."""
+    """SteelState that a passage leaves."""
     return steel_body.after(cells, start, elastic_loads.find(passage, cells, start).moments)
 
 
 def _coupled(state, found):
-    """The first passage's next round; the next passage where its surface is the one that it leaves, or after ROUNDS."""
+    """State for the next round of the first passage, or for the next passage once the surface is reproduced or after ROUNDS."""
     rest = np.concatenate([(found[name].sinking - one.surface).ravel() for name, one in state.bodies.items()])
     largest = max(np.abs(one.sinking).max() for one in found.values())
     settled = np.abs(rest).max() <= max(SAME * largest, SMALL)
@@ -133,21 +138,21 @@ def _coupled(state, found):
 
 
 def _part(state, rest):
-    """The part of the way to the new surface, by what the last part did to it (Irons & Tuck 1969)."""
+    """Share of the way to the new surface for the next round, from the effect of the last share (Irons & Tuck 1969)."""
     less = state.rest - rest
     part = state.part * float(state.rest @ less) / max(float(less @ less), 1e-300)
     return float(np.clip(part, 0.1, 1.0))
 
 
 def _accepted(state, found):
-    """The state before the next passage, on what this one left."""
+    """State before the next passage, which runs on the result of this one."""
     bodies = {name: replace(one, start=found[name], surface=found[name].sinking) for name, one in state.bodies.items()}
     return replace(state, bodies=bodies, passages=state.passages + 1, rounds=0, rest=None, part=HALF,
                    records=(*state.records, _record(state, found)), contained=all(map(_contained, bodies.values())))
 
 
 def _contained(body):
-    """Whether no cell flowed at the rim of the region and in its deepest layer."""
+    """Whether no cell at the rim of the region or in its deepest layer yielded."""
     flowed = body.start.hardened > 0
     sides = [flowed[-1], flowed[:, [0, -1]], *([flowed[:, :, -1]] if body.y.size > 1 else []),
              *([flowed[:, :, 0]] if body.y.size > 1 and not body.mirrored else [])]
@@ -155,7 +160,7 @@ def _contained(body):
 
 
 def _record(state, found, judged=False):
-    """Numbers of a passage; judged: it is the one that is judged, so what it leaves is not taken over."""
+    """Numbers of a passage; judged: it is the assessed passage, so its result is not taken over."""
     pairs = [(one.start, found[name]) for name, one in state.bodies.items()]
     new = {name: float((found[name].hardened - one.start.hardened).max()) for name, one in state.bodies.items()}
     return {"passage": state.passages + 1, "judged": judged, "rounds": state.rounds + 1,

@@ -1,4 +1,4 @@
-"""Numbers and arrays of a run-in, as summaries and stores have them."""
+"""Numbers and arrays of a run-in for summaries and stores."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ RISEN = 1e-9  # m: a dent with a lower rim has none
 
 
 def numbers(scene, state):
-    """The part "run_in" of a summary: of a RunInState that is done."""
+    """Part "run_in" of a summary, of a finished RunInState."""
     judged, made = state.records[-1], [one for one in state.records if not one["judged"]]
     bodies = {name: _of_body(one, judged) for name, one in state.bodies.items()}
     return {"passages": state.passages, "rounds": made[0]["rounds"] if made else judged["rounds"],
@@ -28,8 +28,9 @@ def _of_body(one, judged):
 
 
 def _heights(scene, state):
-    """Height of the highest point of the surface that carries the first feature, before and after, where nothing rises depth of
-    the lowest; {} where its steel does not flow."""
+    """Height of the highest point (in a dent: depth of the lowest) of the feature's surface before and after run-in; {} if its
+    steel does not yield.
+    """
     name = scene.reference.name
     if name not in state.bodies:
         return {}
@@ -41,8 +42,9 @@ def _heights(scene, state):
 
 
 def arrays(state):
-    """{name: (values, dims, units, text)} for a store: of each body how far its surface sank, residual stress, plastic
-    strain."""
+    """{name: (values, dims, units, text)} for a store: sinking of the surface, residual stress and plastic strain of each
+    body.
+    """
     out = {}
     for name, one in state.bodies.items():
         dims = [f"run_in_{axis}_{name}" for axis in ("depth", "x", "y")]

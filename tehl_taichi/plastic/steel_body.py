@@ -1,4 +1,4 @@
-"""A body whose steel flows: plastic strain of its cells, carried through the moments of passages."""
+"""A body with plastic strain in its cells, followed through the moments of passages."""
 
 from dataclasses import dataclass, replace
 
@@ -16,9 +16,11 @@ ROOM, LEAST = 0.25, 2  # of the cells that flow by the load alone, on each side,
 
 @dataclass(frozen=True)
 class Cells:
-    """The cells of a region: layers of steel, x, y; body: of the scene; layers: :class:`tehl_taichi.plastic.layers.Layers`;
-    sides: dx, dy (m); mirrored: rows begin with y = 0 and have their image on the other side; flow_stress: function of cells'
-    layers (by number) and plastic strain, Pa."""
+    """Cells (layers, x, y) of a region of steel.
+
+    body: of the scene; layers: :class:`tehl_taichi.plastic.layers.Layers`; sides: dx, dy (m); mirrored: rows begin at y = 0,
+    which is a plane of symmetry; flow_stress: Pa, function of the layer numbers and plastic strain of cells.
+    """
 
     body: object
     layers: object
@@ -35,8 +37,9 @@ class Cells:
 
 @dataclass(frozen=True)
 class SteelState:
-    """What passages left: plastic strain (layers, 6, x, y), equivalent plastic strain (layers, x, y), residual stress (layers,
-    6, x, y) Pa, sinking of the surface (x, y) m."""
+    """Result of passages: plastic strain (layers, 6, x, y), equivalent plastic strain (layers, x, y), residual stress (layers,
+    6, x, y) Pa, sinking of the surface (x, y) m.
+    """
 
     strain: np.ndarray
     hardened: np.ndarray
@@ -45,13 +48,15 @@ class SteelState:
 
     @classmethod
     def virgin(cls, cells):
-        """A body before its first passage."""
+        """State of a body before its first passage."""
         shape = cells.layers.count, 6, *cells.shape
         return cls(np.zeros(shape), np.zeros((shape[0], *cells.shape)), np.zeros(shape), np.zeros(cells.shape))
 
 
 def after(cells, state, moments):
-    """The SteelState after moments [(cells that may yield: (layers, x, y) numbers, their elastic stress (n, 6) Pa)]."""
+    """Return the SteelState after `moments`: [(cell numbers (layers, x, y), their elastic stress (n, 6) Pa)] of cells that may
+    yield.
+    """
     flowing = np.concatenate([_flowing(cells, state, *one) for one in moments], axis=1) if moments else np.zeros((3, 0), int)
     if not flowing.size:
         return state
@@ -64,15 +69,16 @@ def after(cells, state, moments):
 
 
 def _flowing(cells, state, places, stress):
-    """Places (3, n) of the cells that flow by what the passages before left."""
+    """Numbers (3, n) of the cells that yield, given the state that earlier passages left."""
     layer, x, y = places
     size = flow.equivalent(flow.deviator(stress + state.residual[layer, :, x, y]))
     return np.stack(places)[:, size > cells.flow_stress(layer, state.hardened[layer, x, y]) * (1 + CLOSE)]
 
 
 def _around(places, cells):
-    """Slices of layers, x and y around places, with room for what flows by these; from the surface on, and from y = 0 on where
-    that mirrors."""
+    """Slices of layers, x and y around cells, with a margin for further yielding; from the surface on, and from y = 0 on if
+    mirrored.
+    """
     ends = [(int(at.min()), int(at.max()) + 1) for at in places]
     if cells.mirrored:
         ends[2] = 1 - ends[2][1], ends[2][1]
@@ -83,8 +89,9 @@ def _around(places, cells):
 
 
 class _Zone:
-    """The part of a body in which cells may yield; stresses are found there alone. What flowed elsewhere before keeps its
-    residual stress here."""
+    """Part of a body in which cells may yield; stresses are computed only there. Cells that yielded earlier elsewhere
+    contribute their residual stress.
+    """
 
     def __init__(self, cells, state, part):
         layers, *sides = part
@@ -94,7 +101,7 @@ class _Zone:
         self.residual, self.G = self.kept, self.space.G
 
     def follow(self, places, stress):
-        """One moment: the elastic stress (n, 6) of cells (layers, x, y) that may yield."""
+        """Apply one moment: elastic stress (n, 6) of cells (layers, x, y) that may yield."""
         layer, x, y = (at - one.start for at, one in zip(places, self.part))
         at, kinds = (layer, x, y), (layer[:, None], np.arange(6), x[:, None], y[:, None])
         limit = self.cells.flow_stress(layer, self.hardened[at])
@@ -102,8 +109,9 @@ class _Zone:
             self._settle(stress, at, kinds, CLOSE * limit)
 
     def _settle(self, stress, at, kinds, close):
-        """Find the plastic strain of these cells that returns them to the flow stress with its own residual stress, to `close`
-        (n,) Pa."""
+        """Find the plastic strain that returns these cells to the flow stress, with the residual stress it causes, to `close`
+        (n,) Pa.
+        """
         hardened, strain = self.hardened[at], self.strain[kinds]
         found = strain
         for _ in range(ROUNDS):
@@ -117,7 +125,7 @@ class _Zone:
                 return
 
     def _size(self, stress, kinds):
-        """Von Mises stress of the elastic stress of cells and their residual one."""
+        """Von Mises stress of elastic plus residual stress of cells."""
         return flow.equivalent(flow.deviator(stress + self.residual[kinds]))
 
     def _answer(self):
@@ -125,7 +133,7 @@ class _Zone:
         return _answer(self.cells, self.space, self.strain - self.before)
 
     def left(self, state):
-        """The SteelState with what happened here."""
+        """SteelState with the result of this part."""
         strain, hardened = state.strain.copy(), state.hardened.copy()
         strain[self.whole], hardened[self.part] = self.strain, self.hardened
         residual, sinking = _answer(self.cells, self.cells.half_space(), strain)

@@ -1,4 +1,4 @@
-"""The change of a surface by plastic flow, as a passage sees it."""
+"""Change of a surface by plastic flow, as a passage uses it."""
 
 from dataclasses import dataclass
 
@@ -11,9 +11,10 @@ NODES = range(-1, 3)  # of the interpolation, from the node before a place
 
 @dataclass(frozen=True)
 class SurfaceChange:
-    """surface: "a" or "b"; x (nx,), y (rows,) m in its frame; sinking (nx, rows) m, into the body. Nothing beyond.
+    """Sinking of surface "a" or "b": (nx, rows) m, positive into the body, at x (nx,), y (rows,) m of its frame; zero beyond.
 
-    mirrored: rows begin with y = 0 and have their image on the other side."""
+    mirrored: rows begin at y = 0, which is a plane of symmetry.
+    """
 
     surface: str
     x: np.ndarray
@@ -22,14 +23,15 @@ class SurfaceChange:
     mirrored: bool
 
     def at(self, x, y):
-        """Sinking (m) at (y, x) of places x (n,) and y (m,) in its frame."""
+        """Sinking (m) at (y, x) for positions x (n,) and y (m,) of its frame."""
         along, across = _weights(self.x, x), _weights(self.y, np.abs(y) if self.mirrored else y, self.mirrored)
         return across @ self.sinking.T @ along.T
 
 
 def _weights(nodes, to, mirrored=False):
-    """(to, nodes): cubic between nodes, exact on them, 0 beyond the ends; one node holds everywhere. mirrored: before the first
-    node lies the image of what follows it."""
+    """Cubic interpolation weights (to, nodes), 0 beyond the ends; a single node is constant. mirrored: the first node is a
+    symmetry axis.
+    """
     to, size = np.asarray(to, float), len(nodes)
     if size == 1:
         return np.ones((to.size, 1))

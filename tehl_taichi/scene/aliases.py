@@ -1,4 +1,4 @@
-"""Changes of a scene that are given together: keys by their full names, and which of them contradict each other."""
+"""Changes of a scene: short keys get their full names, and contradictory changes are refused."""
 
 from typing import Any
 
@@ -21,15 +21,17 @@ EXCLUSIVE = ((LOADS[:1], LOADS[1:2], LOADS[2:]), (BY_SURFACE, ("operation.u_m", 
 
 
 def full_name(key):
-    """The dotted key behind a short one; that of the first feature with its number."""
+    """Full dotted key of a short one; features without a number are the first one."""
     key = SHORT.get(key, key)
     section, _, rest = key.partition(".")
     return f"feature.0.{rest}" if section == "feature" and rest and not rest[0].isdigit() else key
 
 
 def settled(given):
-    """{full key: value} of (words, key, value), the words being what the user wrote. Raises SceneError, with the words of
-    both, where two of them contradict each other."""
+    """Resolve changes (words, key, value) to {full key: value}; words: text that the user typed.
+
+    Raises SceneError, with the words of both, if two changes contradict each other.
+    """
     found: dict[str, tuple[str, Any]] = {}
     for words, key, value in given:
         key = full_name(key)
@@ -46,23 +48,23 @@ def settled(given):
 
 
 def check_swept(changes, keys):
-    """Refuse changes {key: value} of all cases that a sweep over these keys overrules or contradicts. Raises SceneError."""
+    """Refuse changes {key: value} of all cases that a sweep over these keys overrides or contradicts. Raises SceneError."""
     settled([*((f"{words(key, value)} in all cases", key, value) for key, value in changes.items()),
              *((f"the sweep over {key}", key, f"swept {key}") for key in keys)])
 
 
 def named(changes):
-    """{full key: value} of changes {key: value}. Raises SceneError, as :func:`settled`."""
+    """Resolve changes {key: value} to {full key: value}. Raises SceneError, as :func:`settled`."""
     return settled([(words(key, value), key, value) for key, value in changes.items()])
 
 
 def words(key, value):
-    """A change as a sentence shows it."""
+    """Text of a change in messages."""
     return f"{key} = {shown(value)}"
 
 
 def _is_given(key, value):
-    """A load of 0 is none given, no positive number of steps, steady_only = false are no wishes; a speed or slip of 0 is."""
+    """Whether a value sets its key: a load of 0, 0 steps and steady_only = false do not; a speed or slip of 0 does."""
     if key == "time.steps":
         return not isinstance(value, int) or value > 0
     return key.startswith("operation.") or bool(value)

@@ -79,7 +79,7 @@ BUILT_INS = {
 
 
 def given(scene_):
-    """The scene that is given, or the built-in one of that name. Raises SceneError."""
+    """Return a Scene unchanged, or load the built-in scene with this name. Raises SceneError."""
     if isinstance(scene_, Scene):
         return scene_
     if isinstance(scene_, str):
@@ -89,7 +89,7 @@ def given(scene_):
 
 
 def scene(name="gear"):
-    """The built-in scene of that name. Raises SceneError with the nearest name."""
+    """Built-in scene with this name. Raises SceneError with the nearest name."""
     if name not in BUILT_INS:
         raise SceneError(f"unknown scene {name!r}{nearest(name, BUILT_INS)}; built in: {', '.join(BUILT_INS)}")
     return BUILT_INS[name][0]

@@ -1,7 +1,7 @@
-"""An oil by its data sheet: kinematic viscosities at 40 and 100 deg C, perhaps its density at 15 and alpha at 40 deg C.
+"""Oil from a data sheet: kinematic viscosities at 40 and 100 deg C, optionally density at 15 and alpha at 40 deg C.
 
-They become, once, where an Oil is made, the numbers of the law roelands-temperature, so that no law knows of data sheets: G0
-and S0 such that both viscosities at p = 0 are met exactly, Z from alpha, the same at all temperatures (Cz = 0).
+When an Oil is made, the sheet is converted to the numbers of the law roelands-temperature; laws know nothing of sheets. G0 and
+S0 reproduce both viscosities at p = 0; Z follows from alpha and is independent of temperature (Cz = 0).
 """
 
 import math
@@ -28,18 +28,19 @@ VISCOSITY = ("G0", "S0", "Dz", "Cz")
 
 
 def is_given(values):
-    """Whether some of these values of an oil are of a data sheet."""
+    """Whether any of these values of an oil belongs to a data sheet."""
     return any(plain(values.get(key, 0)) != 0 for key in KEYS)
 
 
 def follows(values):
-    """Names of the numbers that follow from the sheet of these values, () without one."""
+    """Names of the numbers that the data sheet in these values determines, () without one."""
     return () if not is_given(values) else (*VISCOSITY, "rho0") if values.get("rho_15", 0) else VISCOSITY
 
 
 def completed(oil):
-    """{key: value} that follow from the sheet of an oil, nothing where it has none. Raises SceneError where it contradicts
-    itself or what else is given."""
+    """{key: value} that the data sheet of an oil determines, {} without one. Raises SceneError if it contradicts itself or
+    other given numbers.
+    """
     values = vars(oil)
     if not is_given(values):
         return {}
@@ -52,7 +53,7 @@ def completed(oil):
 
 
 def check_free(given, fresh):
-    """Refuse numbers {key: value} beside a sheet unless they are those that follow from it. Raises SceneError."""
+    """Refuse numbers {key: value} given beside a sheet that differ from those it determines. Raises SceneError."""
     for key, value in given.items():
         _declared(key).metadata["kind"].check(f"oil.{key}", value)
     wrong = [key for key in given if not math.isclose(given[key], fresh[key], rel_tol=1e-6)]
@@ -69,12 +70,12 @@ def estimated(oil):
 
 
 def alpha_40(nu_40, rho0, Z):
-    """1/Pa, d ln(eta)/dp at p = 0 and 40 deg C of that law."""
+    """Pressure coefficient d ln(eta)/dp (1/Pa) of that law at p = 0 and 40 deg C."""
     return Z * P_ROELANDS * _ln_rise(nu_40 * rho0)
 
 
 def words(oil, found):
-    """Text: source of the numbers of an oil with a data sheet; found: the derived values and rho0."""
+    """Text about the source of the numbers of an oil with a data sheet; found: the derived values and rho0."""
     rho0 = found["rho0"]
     density_ = f", {oil.rho_15:g} kg/m3 at 15 deg C" if oil.rho_15 else f"; {rho0:g} kg/m3 at 40 deg C, not from there"
     alpha = f"alpha {alpha_40(oil.nu_40, rho0, found['Dz']) * 1e9:.3g} 1/GPa at 40 deg C"
@@ -84,7 +85,7 @@ def words(oil, found):
 
 
 def _check(oil):
-    """Check a data sheet: both viscosities, the first the larger, no other law, alpha known or estimated."""
+    """Check a data sheet: both viscosities, the first the larger, no other law, alpha given or possible to estimate."""
     if not (oil.nu_40 and oil.nu_100):
         known = next(key for key in KEYS if getattr(oil, key))
         missing = " and ".join(f"oil.{key}" for key in ("nu_40", "nu_100") if not getattr(oil, key))
@@ -103,7 +104,7 @@ def _check(oil):
 
 
 def _viscosity(oil, rho0):
-    """G0, S0, Dz, Cz at that density (kg/m3, 40 deg C): eta = nu rho, each at its own temperature."""
+    """G0, S0, Dz, Cz for this density (kg/m3, 40 deg C): eta = nu rho, each at its own temperature."""
     eta_40, eta_100 = oil.nu_40 * rho0, oil.nu_100 * rho0 * _expansion(oil, 100.0)
     cold, hot = math.log10(eta_40) + LOG_SCALE, math.log10(eta_100) + LOG_SCALE
     S0 = math.log(cold / hot) / math.log(235 / 175)  # (1 + Gamma/135) at 100 over that at 40 deg C
@@ -116,7 +117,7 @@ def _ln_rise(eta):
 
 
 def _expansion(oil, Gamma):
-    """Density at p = 0 over that at 40 deg C."""
+    """Density at p = 0 and temperature Gamma, relative to 40 deg C."""
     return float(density.LAWS[oil.density].expansion(oil, 0.0, Gamma))
 
 

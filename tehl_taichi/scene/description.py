@@ -1,4 +1,4 @@
-"""The whole scene: its parts, the checks between them, changes, and the way to and from plain dictionaries."""
+"""The whole scene: its parts, the checks between them, changes, and conversion to and from plain dictionaries."""
 
 import dataclasses
 import math
@@ -142,7 +142,7 @@ class Scene:
         run_in.check(self)
 
     def _check_kinds(self):
-        """Each part of its own kind, the features a tuple."""
+        """Check the type of every part; features become a tuple."""
         if isinstance(self.features, list):
             object.__setattr__(self, "features", tuple(self.features))
         kinds = {**SECTIONS, "body_a": Body, "body_b": Body, "oil": Oil}
@@ -174,7 +174,7 @@ class Scene:
                              f"start needs a smooth contact; allowed: at most {start - front - LATEST:.2f} a (or -inf)")
 
     def _check_room(self):
-        """A point contact must fit into the grid, and a feature into the gap at its ends, where it comes in and leaves."""
+        """Check that a point contact fits into the grid, and a feature into the gap at the ends of the domain."""
         side = float(self.grid.y_max)
         if self.contact.kind != "line" and side < BEYOND:
             raise SceneError(f"grid.y_max = {side:g} b: a {self.contact.kind} contact extends to 1 b; allowed: at "
@@ -192,7 +192,7 @@ class Scene:
                                  f"{self.load_meant(need / min(abs(end), domain.INLETS[0])) or self._form_words()}")
 
     def _check_zoom(self):
-        """A window needs every step."""
+        """Check that a scene with a fine window stores every step."""
         if not self.zooms:
             return
         if self.output.every > 1:
@@ -201,7 +201,7 @@ class Scene:
         zoom_room.check(self)
 
     def _check_window(self):
-        """Some moments must be left of the passage."""
+        """Check that the fatigue window leaves some moments of the passage."""
         if not self.has_fatigue or total_steps(self) == 0:
             return
         count, start, end = moments(self)
@@ -211,17 +211,17 @@ class Scene:
                              f"the passage, which extends from {start:.2f} to {end:.2f} a; allowed: a window of at least two")
 
     def _form_words(self):
-        """Sentences about the form of a measured feature, which makes it higher than necessary."""
+        """Sentences about the form of a measured feature, which adds to its height."""
         sentences = (sentence for f in self.features if f.kind.measured for sentence in map_warnings.form(f))
         return "".join(f". {sentence}" for sentence in sentences)
 
     def _load_words(self):
-        """The load as it was given."""
+        """Text of the load as it was given."""
         key, value, unit = self._load_given()
         return f"contact.{key} = {value:g}{' ' * bool(unit)}{unit}"
 
     def _load_given(self):
-        """(key, value, unit) of the load."""
+        """Key, value and unit of the load as it was given."""
         key = next(key for key in ("load", "hertz_pressure", "moes_M") if getattr(self.contact, key) > 0)
         unit = {"load": self.load_unit, "hertz_pressure": "Pa", "moes_M": ""}[key]
         return key, getattr(self.contact, key), unit
@@ -232,8 +232,9 @@ class Scene:
         return "N/m" if self.contact.kind == "line" else "N"
 
     def load_meant(self, wider=0.0, least=MIN_HERTZ):
-        """What the load was perhaps meant as, where it makes no contact, or one that has to be so many times wider, or with
-        that Hertz pressure (Pa) at least. Width and Hertz pressure grow alike with it."""
+        """Unit in which the load was probably meant, if the load makes no contact, one `wider` times too wide, or a Hertz
+        pressure of at least `least` (Pa). Width and pressure scale alike.
+        """
         key, value, unit = self._load_given()
         power = 1.0 if key == "hertz_pressure" else 1 / 2 if self.contact.kind == "line" else 1 / 3
         p_H = scales.Scales.of(self).p_H
@@ -255,27 +256,29 @@ class Scene:
 
     @property
     def load(self):
-        """N/m (line) or N (point), however the contact was described."""
+        """Load in N/m (line) or N (point), however the contact was described."""
         return scales.load_of(self)
 
     @property
     def transient(self):
-        """True when a feature passes."""
+        """True if a feature passes."""
         return bool(self.features) and not self.time.steady_only
 
     @property
     def zooms(self):
-        """Whether a fine window rides with its feature."""
+        """Whether the passage has a fine window around its feature."""
         return self.transient and self.zoom.factor > 0
 
     @property
     def runs_in(self):
-        """Whether passages in which steel flows come before the one that is judged."""
+        """Whether run-in passages, in which steel yields, come before the assessed passage."""
         return self.transient and self.time.run_in > 0
 
     @property
     def at_rest(self):
-        """Whether surface a, and surface b, moves at less than a hundredth of the mean speed, for heat not at all."""
+        """(surface a, surface b): whether it moves at less than a hundredth of the mean speed; then heat treats it as at
+        rest.
+        """
         o = self.operation
         return o.u_a < AT_REST * o.u_m, o.u_b < AT_REST * o.u_m
 
@@ -286,22 +289,22 @@ class Scene:
 
     @property
     def reference(self):
-        """The surface of the first feature, whose place is the clock of a passage; a where there is none."""
+        """Surface of the first feature, whose position is the clock of a passage; a without features."""
         return next(s for s in self.surfaces if s.name == moving_surfaces.reference_name(self))
 
     @property
     def passing(self):
-        """[(surface, feature)] of the features that pass."""
+        """[(surface, feature)] of all passing features."""
         return [(s, f) for s in self.surfaces for f in s.features if not s.stands]
 
     @property
     def standing(self):
-        """The features of a surface at rest; they are in the contact from the steady start on."""
+        """Features of a surface at rest; they are in the contact from the steady start on."""
         return tuple(f for s in self.surfaces for f in s.features if s.stands and self.transient)
 
     @property
     def path(self):
-        """Start and end of the first feature's centre, in a: long features start earlier and end later."""
+        """Start and end position of the first feature's centre, in a; they lie farther out for long features."""
         if not self.features:
             return FIRST, LAST
         a = scales.Scales.of(self).a
@@ -313,17 +316,17 @@ class Scene:
 
     @property
     def one_dimensional(self):
-        """True for a line contact in which nothing varies across."""
+        """True for a line contact without variation along y."""
         return self.contact.kind == "line" and (not self.transient or all(f.transverse for f in self.features))
 
     @property
     def symmetric(self):
-        """True when the half domain y >= 0 says it all."""
+        """True if the half domain y >= 0 suffices."""
         return not self.transient or all(f.symmetric for f in self.features)
 
     @property
     def rows(self):
-        """Cells across: none in one dimension, grid.ny on the half domain, twice as many on the whole."""
+        """Number of cells along y: 0 in one dimension, grid.ny on the half domain, twice as many on the whole."""
         return 0 if self.one_dimensional else self.grid.ny * (1 if self.symmetric else 2)
 
     @property
@@ -334,30 +337,34 @@ class Scene:
 
     @property
     def shear_law(self):
-        """The rheology that the flow of a film with one temperature obeys: Newtonian where no surface slips."""
+        """Rheology for the flow of an isothermal film: Newtonian without slip."""
         return self.rheology if self.operation.u_s != 0 else dataclasses.replace(self.rheology, law=NEWTONIAN.name)
 
     @property
     def keeps_expansion(self):
-        """Whether the density of a film with one temperature keeps its thermal factor, at the inlet temperature: where the
-        user leaves the choice and nothing slips, so that films with and without slip are of one oil."""
+        """Whether the density of an isothermal film keeps its thermal factor, at the inlet temperature.
+
+        It does if thermal.on is left to the program and there is no slip, so that films with and without slip have one oil.
+        """
         return self.thermal.on == AUTO and self.contact.moes_M == 0
 
     @property
     def film_oil(self):
-        """The oil of a film with one temperature."""
+        """Oil of an isothermal film."""
         expansion = oil.in_one_temperature(self.oil.expansion, self.keeps_expansion)
         return dataclasses.replace(self.oil, expansion=expansion) if expansion != self.oil.expansion else self.oil
 
     @property
     def has_thermal_stress(self):
-        """Whether the heat of the surface counts in its stress."""
+        """Whether the surface temperature contributes to the stresses."""
         counts = self.fatigue.thermal_stress
         return not self.isothermal if counts == AUTO else bool(counts)
 
     def left_out(self, cut=True):
-        """Parts that this scene does not need and does not compute, each with its reason; cut: and the rest of a passage
-        that is cut, which a warning reports, too."""
+        """Parts that this scene does not need and does not compute, each with its reason.
+
+        cut: also list the rest of a cut passage, which a warning reports, too.
+        """
         out: list[str] = []
         if self.isothermal:
             why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
@@ -386,23 +393,25 @@ class Scene:
         return out
 
     def warnings(self):
-        """Warnings about this scene, a sentence each (see :mod:`tehl_taichi.scene.scene_warnings`)."""
+        """Warnings about this scene, one sentence each (see :mod:`tehl_taichi.scene.scene_warnings`)."""
         return scene_warnings.warnings(self)
 
     @property
     def has_fatigue(self):
-        """Fatigue needs a passage: the stress history of material points."""
+        """Whether the fatigue of the passage is computed."""
         return self.fatigue.on and self.transient and bool(self.judged)
 
     @property
     def judged(self):
-        """The surfaces whose material is searched: those of fatigue.surfaces that move (one at rest is always under load)."""
+        """Surfaces whose material the fatigue search covers: those of fatigue.surfaces that move (one at rest is always under
+        load).
+        """
         names = moving_surfaces.NAMES if self.fatigue.surfaces == BOTH else (self.fatigue.surfaces,)
         return tuple(s for s, rests in zip(self.surfaces, self.at_rest) if s.name in names and not rests)
 
     @property
     def without_fatigue(self):
-        """Why it has no fatigue index, as :meth:`left_out` lists it; "" where it has one."""
+        """Reason why the scene has no fatigue index, as in :meth:`left_out`; "" if it has one."""
         if self.has_fatigue:
             return ""
         if self.fatigue.on and not self.transient:
@@ -445,12 +454,12 @@ class Scene:
         return changed.with_user_keys(idle_keys.user_keys(self) | changes.keys())
 
     def with_user_keys(self, keys):
-        """Itself, as one of which the user gave these keys (see :mod:`tehl_taichi.scene.idle_keys`)."""
+        """This scene, with a record of the keys that the user gave (see :mod:`tehl_taichi.scene.idle_keys`)."""
         object.__setattr__(self, "user_keys", frozenset(keys))
         return self
 
     def to_dict(self):
-        """Plain nested dictionary with every value, defaults included; the sections of a scene file."""
+        """Nested dictionary of all values, defaults included; its keys are the sections of a scene file."""
         data: dict[str, Any] = {"name": self.name, "note": self.note}
         for key in SECTIONS:
             data[key] = domain.with_auto(dataclasses.asdict(getattr(self, key)))
@@ -461,8 +470,10 @@ class Scene:
 
     @classmethod
     def from_dict(cls, data):
-        """Scene from such a dictionary; missing values take their defaults, unknown keys are refused. None of them
-        counts as given by the user."""
+        """Scene from such a dictionary; missing values take their defaults, unknown keys are refused.
+
+        No key counts as given by the user.
+        """
         known = {*TOP, "bodies", "oil", "feature", *SECTIONS}
         if not isinstance(data, dict):
             raise SceneError(f"a scene must be a table of sections, not {shown(data)}")

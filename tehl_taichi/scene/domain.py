@@ -1,7 +1,7 @@
-"""Ends of the domain of a scene: the gap at its border has to be some times the film, or the film feels the border.
+"""Ends of the domain of a scene: far enough that the gap there is several times the film thickness.
 
-What a border that takes the pressure of the oil beyond it (:mod:`tehl_taichi.pressure.inlet`) still costs falls with that
-ratio; what one without pressure costs is about (ratio/1.4)^(-3/2) of the film.
+The error of a border with the oil pressure beyond it (:mod:`tehl_taichi.pressure.inlet`) falls with that ratio; the error of a
+border without pressure is about (ratio/1.4)^(-3/2) of the film.
 """
 
 import math
@@ -31,7 +31,7 @@ ENDS = "x_min", "x_max", "y_max"
 
 
 def chosen(scene):
-    """The grid of a scene with a number for every end that is "auto"."""
+    """Grid of a scene with a number in place of every "auto"."""
     grid = scene.grid
     automatic = [key for key in ENDS if _auto(getattr(grid, key))]
     if not automatic:
@@ -45,7 +45,7 @@ def chosen(scene):
 
 
 def with_auto(values):
-    """Values of a grid with "auto" where the program chose."""
+    """Values of a grid with "auto" where the program chose the number."""
     return {key: AUTO if isinstance(value, AutomaticValue) else value for key, value in values.items()}
 
 
@@ -58,7 +58,7 @@ def _least(scene):
 
 
 def _first(ends, ratio, least):
-    """The nearest of these ends where the gap is so many times the film, or the last."""
+    """Nearest of these ends where the gap is `least` times the film, or the last one."""
     return next((end for end in ends if 1 + ratio(end) >= least), ends[-1])
 
 
@@ -68,13 +68,15 @@ def inlet_gap(s, X):
 
 
 def side_gap(s, Y):
-    """Gap Y b beside the centre of a point contact: exact for a circle, and far from an ellipse."""
+    """Gap at distance Y b beside the centre of a point contact: exact for a circle and far from an ellipse."""
     return s.curvature * (s.b / s.a) ** 2 * hertz.point_gap(Y)
 
 
 def within(scene, share):
-    """The scene on a domain that costs at most this share of its numbers, as far as the film formula knows. Raises SceneError
-    where the user's own ends are nearer, or none is far enough."""
+    """Scene on a domain whose error is at most this share, by the film formula.
+
+    Raises SceneError if the user's own ends are nearer, or if no end is far enough.
+    """
     if scene.grid.inlet == "starved":  # the domain is as long as the oil
         return scene
     s, film = Scales.of(scene), heated_film(scene) / Scales.of(scene).h
@@ -99,14 +101,14 @@ def _needed(key, ends, ratio, least, share):
 
 
 def remedy(scene, film):
-    """{"x_min", "y_max": ends (a, b)} that cost the film (a^2/R') LITTLE."""
+    """Ends {"x_min", "y_max"} (a, b) for which the error of the film (a^2/R') is at most LITTLE."""
     s, power = Scales.of(scene), (LEFT[Scales.of(scene).kind] / LITTLE) ** (2 / 3)
     inlet = {"x_min": -_first(INLETS, lambda X: inlet_gap(s, X) / film, max(_least(scene), INLET * power))}
     return inlet if s.line else {**inlet, "y_max": _first(SIDES, lambda Y: side_gap(s, Y) / film, max(GAPS, SIDE * power))}
 
 
 def moved(scene):
-    """Sentence about an inlet that `auto` moved away from the usual one; "" otherwise."""
+    """Sentence about an inlet that "auto" moved away from its usual place; "" otherwise."""
     g = scene.grid
     if not (isinstance(g.x_min, AutomaticValue) and g.x_min < -INLETS[0]):
         return ""
@@ -118,7 +120,7 @@ def moved(scene):
 
 
 def same_cells(scene, x_min=None, y_max=None):
-    """The Option with cells that keep their size on a domain with other ends."""
+    """Grid Option that keeps the size of the cells on a domain with other ends."""
     g = scene.grid
     nx = math.ceil(g.nx * (g.x_max - (x_min or g.x_min)) / (g.x_max - g.x_min) / 16 - 1e-9) * 16
     ny = math.ceil(g.ny * (y_max or g.y_max) / g.y_max / 4 - 1e-9) * 4

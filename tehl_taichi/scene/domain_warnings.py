@@ -1,5 +1,4 @@
-"""Room for features in the domain: in the gap at its ends, where they come in and leave, and between its sides; and
-the domain in which they do, all at once."""
+"""Space for features in the domain: in the gap at its ends and between its sides; one proposal of a domain that fits all."""
 
 import math
 
@@ -14,8 +13,9 @@ WIDER = 1.05  # times that cells may grow with a domain before it gets more of t
 
 
 def warnings(scene):
-    """One sentence on features that are higher than the gap that the dry contact leaves at an end of the grid (the film adds to
-    it), or wider than the grid, with what gives all of them room."""
+    """One sentence about features that are higher than the gap of the dry contact at an end of the grid (the film adds to it)
+    or wider than the grid, with a domain that fits all of them.
+    """
     reasons = [*_low_ends(scene), *_narrow(scene)] if scene.transient else []
     if reasons:
         option = domain_words(scene)
@@ -23,7 +23,7 @@ def warnings(scene):
 
 
 def domain_words(scene):
-    """Options that give the scene a domain with room for its features, on cells as large as before; "" where none does."""
+    """Options of a domain that fits the features, with cells of the present size; "" if none does."""
     ends = {key: end for key, _, _, end in _low(scene)} | _sides(scene)
     if not ends or max(map(abs, ends.values())) > FARTHEST:
         return ""
@@ -32,7 +32,7 @@ def domain_words(scene):
 
 
 def _low(scene):
-    """(key, end (a), gap (m), an end that is far enough) of each end of the grid where the gap is too low."""
+    """(key, end (a), gap (m), a sufficient end) for each end of the grid where the gap is too low."""
     s, top = Scales.of(scene), max((f.top for f in scene.features), default=0.0)
     gap = hertz.line_gap if s.line else hertz.point_gap
     for key in ("x_min", "x_max"):
@@ -50,7 +50,7 @@ def _low_ends(scene):
 
 
 def _wide(scene):
-    """{number: how far (m) it reaches along y} of features that the sides of the domain cut."""
+    """{number: extent (m) along y} of features that the sides of the domain cut."""
     s = Scales.of(scene)
     edge = scene.grid.y_max * s.b
     reached = {n: abs(f.y) + f.reach_y for n, f in enumerate(scene.features)
@@ -59,13 +59,13 @@ def _wide(scene):
 
 
 def _sides(scene):
-    """{"y_max": width in b that takes all of them in}; {} where none is cut."""
+    """{"y_max": width in b that fits all features}; {} if none is cut."""
     wide = _wide(scene)
     return {"y_max": math.ceil(10 * max(wide.values()) / Scales.of(scene).b - 1e-9) / 10} if wide else {}
 
 
 def _narrow(scene):
-    """The feature that reaches farthest beyond the sides of the domain."""
+    """Description of the feature that extends farthest beyond the sides of the domain."""
     if wide := _wide(scene):
         n = max(wide, key=wide.get)
         yield (f"{resolution.label(scene, n)} reaches to "
@@ -74,7 +74,7 @@ def _narrow(scene):
 
 
 def _smaller(scene, n):
-    """Advice that makes a patch fit into the present domain, as text."""
+    """Advice how to make a patch fit into the present domain."""
     f, s = scene.features[n], Scales.of(scene)
     room = 2 * (scene.grid.y_max * s.b - abs(f.y))
     if "extent_y" not in f.kind.uses or room < s.b / 10:
@@ -83,7 +83,7 @@ def _smaller(scene, n):
 
 
 def _grid(scene, ends):
-    """[--grid with the cells that keep their size in a domain with these ends]; [] where it needs no more of them."""
+    """[--grid that keeps the size of the cells in a domain with these ends]; [] if the present number suffices."""
     g = scene.grid
     x_min, x_max, y_max = (ends.get(key, getattr(g, key)) for key in ("x_min", "x_max", "y_max"))
     nx, ny = cells("nx", g.nx, (x_max - x_min) / (g.x_max - g.x_min)), cells("ny", g.ny, y_max / g.y_max)
@@ -91,7 +91,8 @@ def _grid(scene, ends):
 
 
 def cells(key, count, times):
-    """Cells of the axis "nx" or "ny" that becomes so many times as long: about as large as before, in multiples that a grid
-    takes."""
+    """Cells of the axis "nx" or "ny" if it becomes `times` as long: about as large as before, in multiples that a grid
+    accepts.
+    """
     multiple = resolution.kept_multiple(key, count)
     return count if 1 <= times <= WIDER else math.ceil(count * times / WIDER / multiple - 1e-9) * multiple

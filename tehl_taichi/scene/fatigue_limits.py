@@ -1,7 +1,7 @@
-"""Fatigue constants by the limits that handbooks have, in fully reversed bending and torsion.
+"""Fatigue constants from handbook limits, in fully reversed bending and torsion.
 
-One of them and kappa give sigma_eF: the criterion's stress under an amplitude of that limit is where its index is 1. Both give
-kappa, too. They become the constants once, where the section [fatigue] is made, so that no search knows of limits.
+One limit and kappa give sigma_eF: at an amplitude of that limit the index is 1. Both limits also give kappa. The section
+[fatigue] converts them once, when it is made; no search knows of limits.
 """
 
 import math
@@ -22,13 +22,14 @@ def given_limits(values):
 
 
 def follows(values):
-    """Names of the constants that follow from the limits of these values, () without one."""
+    """Names of the constants that the limits in these values determine, () without limits."""
     return ((), ("endurance",), ("kappa", "endurance"))[len(given_limits(values))]
 
 
 def completed(fatigue):
-    """{key: value} that follow from the limits of a section [fatigue], nothing where it has none; its source, too, unless it
-    is the user's own. Raises SceneError where the criterion fits no such material."""
+    """{key: value} that the limits of a section [fatigue] determine, and their source unless the user gave one; {} without
+    limits. Raises SceneError if the criterion does not fit such a material.
+    """
     if not follows(vars(fatigue)):
         return {}
     found = dict(zip(("kappa", "endurance"), _constants(fatigue)))
@@ -37,7 +38,7 @@ def completed(fatigue):
 
 
 def _constants(fatigue):
-    """(kappa, sigma_eF)."""
+    """Constants (kappa, sigma_eF) from the limits."""
     criterion, bending, torsion = CRITERIA[fatigue.criterion], fatigue.bending_limit, fatigue.torsion_limit
     if bending and torsion:
         return criterion.from_limits(bending, torsion)
@@ -46,7 +47,7 @@ def _constants(fatigue):
 
 
 def check_free(given, fatigue):
-    """Refuse constants {key: value} beside limits unless they are those that follow from them. Raises SceneError."""
+    """Refuse constants {key: value} given beside limits that differ from those they determine. Raises SceneError."""
     for key, value in given.items():
         number(f"fatigue.{key}", value)
         if not math.isclose(value, getattr(fatigue, key), rel_tol=1e-6):
@@ -57,7 +58,9 @@ def check_free(given, fatigue):
 
 
 def words(fatigue, kappa=None):
-    """'from the fatigue limit 400 MPa in reversed torsion with kappa = 0.3', '' without limits; kappa: other than its own."""
+    """Text such as 'from the fatigue limit 400 MPa in reversed torsion with kappa = 0.3', '' without limits; kappa: in place of
+    the section's own.
+    """
     limits = [f"{getattr(fatigue, key) / 1e6:g} MPa in {'reversed ' * (n == 0)}{key.partition('_')[0]}"
             for n, key in enumerate(given_limits(vars(fatigue)))]
     if len(limits) == 1:
@@ -66,7 +69,7 @@ def words(fatigue, kappa=None):
 
 
 def changed(table, new):
-    """Clear in the table of a section what new values {key: value} of it replace; None stands for what follows."""
+    """Remove from the table of a section all keys that new values {key: value} replace; None marks derived values."""
     if "endurance" in new and not given_limits(new):
         table.update(dict.fromkeys(KEYS, 0.0))
     if "kappa" in new and len(given_limits(new)) == 1:

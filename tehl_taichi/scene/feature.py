@@ -1,4 +1,4 @@
-"""Surface features: the keys that shapes share, those of single shapes, and what the shape makes of them."""
+"""Surface features: keys that several shapes share, keys of single shapes, and quantities that the shape computes from them."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -26,7 +26,7 @@ def _about(key, general):
 
 @dataclass(frozen=True)
 class SharedKeys:
-    """Keys that shapes share."""
+    """Keys that several shapes share."""
 
     shape: str = choice("cosine", "shape of the feature (`tehl scenes`)", tuple(SHAPES))
     surface: str = choice("a", "surface that carries it", ("a", "b"))
@@ -48,9 +48,9 @@ _KEYS: Any = type("_KEYS", (*OWN, SharedKeys), {})  # those of every shape
 @documented
 @dataclass(frozen=True, repr=False)
 class Feature(_KEYS):
-    """Feature of a surface; x and y of further features are measured from the first (of the other surface: from where that
-    is when the first is at X = 0).
+    """Feature of a surface.
 
+    x and y of further features are measured from the first one (on the other surface: from its position when it is at X = 0).
     `tehl scenes` lists the shapes and their keys. Heights in an array: :meth:`from_heights`.
 
     Examples
@@ -110,7 +110,7 @@ class Feature(_KEYS):
         self._check_strangers()
 
     def _check_strangers(self):
-        """Refuse words and switches that only another shape takes: whoever gives them means that shape."""
+        """Refuse texts and switches that belong to another shape: the user probably means that shape."""
         for key in (key for keys in OWN for key, kind in kinds(keys).items() if isinstance(kind, (Text, Choice, Switch))):
             if self.shape not in USED_BY[key] and getattr(self, key) and not getattr(type(self), key):
                 needed = " or ".join(map(repr, USED_BY[key]))
@@ -118,11 +118,11 @@ class Feature(_KEYS):
 
     @property
     def kind(self):
-        """Its shape: the entry."""
+        """Entry of its shape."""
         return SHAPES[self.shape]
 
     def height_at(self, x, y):
-        """Height (m; positive: out of the surface, a furrow or dent has a negative one) at x, y (m) from its centre; arrays."""
+        """Height (m) at x, y (m, arrays) from its centre; positive out of the surface, negative in a furrow or dent."""
         return self.kind.height(self, x, y)
 
     @property
@@ -132,20 +132,22 @@ class Feature(_KEYS):
 
     @property
     def reach(self):
-        """Distance (m) along x from its centre within which the feature is not zero."""
+        """Distance (m) along x from the centre within which the feature is not zero."""
         return self.kind.reach(self)
 
     @property
     def reach_y(self):
-        """Distance along y; 0 for transverse features, which do not vary along y."""
+        """Distance (m) along y from the centre within which it is not zero; 0 for transverse features, which do not vary along
+        y.
+        """
         return self.kind.reach_y(self)
 
     @property
     def transverse(self):
-        """True when nothing varies along y."""
+        """True if the height does not vary along y."""
         return self.kind.transverse(self)
 
     @property
     def symmetric(self):
-        """True when the half domain y >= 0 says it all."""
+        """True if the half domain y >= 0 suffices."""
         return self.kind.symmetric(self)

@@ -1,4 +1,4 @@
-"""Central and thinnest film by the formulas of the field: smooth, Newtonian; isothermal, or thinned by heat in the inlet."""
+"""Central and minimum film by published formulas: smooth, Newtonian; isothermal or with inlet shear heating."""
 
 import functools
 import math
@@ -15,8 +15,9 @@ ELLIPTICITY = 1.03, 0.64  # k = 1.03 (R_y/R_x)^0.64 (Hamrock & Dowson 1981)
 
 
 def central_film(scene, ratio=None):
-    """Film (m) at the centre by Moes (line) or by Nijenbanning, Venner & Moes 1994 (circle, ellipse; of another `ratio` R_x/R_y
-    instead); see :func:`spread`."""
+    """Central film (m) by Moes (line) or Nijenbanning, Venner & Moes 1994 (circle, ellipse); ratio: R_x/R_y in place of the
+    scene's own; accuracy: see :func:`spread`.
+    """
     s, E, Gamma = Scales.of(scene), reduced_modulus(scene), scene.operation.temperature
     eta0, alpha = math.exp(ln_eta(scene.oil, 0.0, Gamma)), pressure_coefficient(scene.oil, Gamma)
     M, L = moes_numbers(scene.load, s.R, E, eta0, alpha, s.u_m, "line" if s.line else "point")
@@ -33,7 +34,7 @@ BEYOND = 0.25  # where nothing was compared
 
 
 def spread(scene):
-    """Relative difference, at most, of :func:`central_film` and an isothermal Newtonian film in the contact of this scene."""
+    """Largest relative difference between :func:`central_film` and a computed isothermal Newtonian film for this scene."""
     s = Scales.of(scene)
     if not s.line and not COMPARED[0] <= s.curvature <= COMPARED[1]:
         return BEYOND
@@ -42,7 +43,9 @@ def spread(scene):
 
 
 def formula_words(scene):
-    """'Moes, line, isothermal, Newtonian, within 9 %': whose formula, for what, and how good it is for this load."""
+    """Text such as 'Moes, line, isothermal, Newtonian, within 9 %': source, validity and accuracy of the formula for this
+    load.
+    """
     s, within = Scales.of(scene), spread(scene)
     name = "Moes" if s.line else "Nijenbanning, Venner & Moes"
     heavy = ", heavy load" if s.line and within > SPREADS["line"][0][1] or within == BEYOND else ""
@@ -50,7 +53,7 @@ def formula_words(scene):
 
 
 def load_power(scene):
-    """-d ln h/d ln f of the central film of a line by the formula: 0.1 of usual films, 1 between rigid bodies."""
+    """Exponent -d ln h/d ln f of the central film of a line by the formula: 0.1 for usual films, 1 between rigid bodies."""
     s, E, Gamma = Scales.of(scene), reduced_modulus(scene), scene.operation.temperature
     eta0, alpha = math.exp(ln_eta(scene.oil, 0.0, Gamma)), pressure_coefficient(scene.oil, Gamma)
     M, L = moes_numbers(scene.load, s.R, E, eta0, alpha, s.u_m)
@@ -58,25 +61,26 @@ def load_power(scene):
 
 
 def heated_film(scene):
-    """Central film by formula (m), with what the oil's own heat in the inlet leaves of it; isothermal scenes: all.
+    """Central film (m) by formula, reduced by inlet shear heating in thermal scenes.
 
     Computed central films of 25 random thermal lines (0.3 to 2.4 GPa, SRR -1.6 to 1.7, factor 0.07 to 1) are 0.68 to 1.20 of
-    it, half of them 0.87 to 1.0.
+    this value, half of them 0.87 to 1.0.
     """
     return central_film(scene) * (1.0 if scene.isothermal else inlet_heating(scene))
 
 
 def thinnest_film(scene):
-    """Smallest film by formula (m): in the side lobes of a point contact; of a line, which has none, the central film."""
+    """Minimum film (m) by formula: in the side lobes of a point contact; for a line, which has no lobes, the central film."""
     return heated_film(scene) * (1.0 if Scales.of(scene).line else side_lobes(scene))
 
 
 def side_lobes(scene):
-    """Film of the side lobes of an elliptic contact over its central film, at most 1.
+    """Film in the side lobes of an elliptic contact over its central film, at most 1.
 
-    By the smallest film of Hamrock & Dowson 1977, 3.63 U^0.68 G^0.49 W^-0.073 (1 - e^(-0.68 k)), over their central film of the
-    circle, 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)) with k of ELLIPTICITY: of a contact that is long along x theirs
-    is too thick (0.54 GPa, R_x/R_y = 4: lobes 27 % thinner than computed ones; so, from 1/3 to 4, up to 5 % thicker).
+    Ratio of two formulas: minimum film of Hamrock & Dowson 1977, 3.63 U^0.68 G^0.49 W^-0.073 (1 - e^(-0.68 k)), over their
+    central film of a circle, 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)), with k of ELLIPTICITY. Their central film of a
+    contact that is long along x is too thick (0.54 GPa, R_x/R_y = 4: lobes 27 % thinner than computed ones); this ratio is up
+    to 5 % too thick from 1/3 to 4.
     """
     s, E, Gamma = Scales.of(scene), reduced_modulus(scene), scene.operation.temperature
     U, G = math.exp(ln_eta(scene.oil, 0.0, Gamma)) * s.u_m / (E * s.R), E * pressure_coefficient(scene.oil, Gamma)
@@ -87,9 +91,9 @@ def side_lobes(scene):
 
 
 def inlet_heating(scene):
-    """1/(1 + 0.213 (1 + 2.23 S^0.83) Q^0.64), Q = beta eta0 u_m^2/k with beta = -d ln eta/d Gamma, S = |SRR|.
+    """Thermal factor 1/(1 + 0.213 (1 + 2.23 S^0.83) Q^0.64), Q = beta eta0 u_m^2/k, beta = -d ln eta/d Gamma, S = |SRR|.
 
-    After Gupta et al. 1992, from memory and without their factor of the load: films under high loads agree better so.
+    After Gupta et al. 1992, from memory and without their factor of the load: films under high loads agree better without it.
     """
     oil, o = scene.oil, scene.operation
     below, above = (ln_eta(oil, 0.0, o.temperature + part) for part in (-0.5, 0.5))
@@ -98,23 +102,25 @@ def inlet_heating(scene):
 
 
 def heat_words(scene):
-    """Text after an omitted energy equation: the reduction of the film by inlet shear heating, where that is
-    noticeable; "" elsewhere."""
+    """Text about an omitted energy equation: the reduction of the film by inlet shear heating if it is noticeable, else ""."""
     less = 1 - inlet_heating(scene)
     return f"; by formula inlet shear heating alone reduces h_c by {less:.0%}" if less > NOTICED else ""
 
 
 @functools.lru_cache(maxsize=64)
 def pressure_coefficient(oil, Gamma):
-    """alpha* (1/Pa) = 1 / int eta0/eta dp, the coefficient that films follow whatever the law (Blok 1963): of the gear's oil
-    1.15e-8, its slope at the inlet 1.37e-8."""
+    """Coefficient alpha* (1/Pa) = 1 / int eta0/eta dp, on which films depend for any viscosity law (Blok 1963).
+
+    For the gear oil it is 1.15e-8; its slope at the inlet is 1.37e-8.
+    """
     fluidity = np.exp(ln_eta(oil, 0.0, Gamma) - ln_eta(oil, PRESSURES, Gamma) + 0 * PRESSURES)  # of constant oil, too
     return 1 / float(np.trapezoid(fluidity, PRESSURES))
 
 
 def nijenbanning(M, L, ratio=1.0):
-    """Central film of an elliptic contact in Moes units, all regimes (Nijenbanning, Venner & Moes 1994); ratio: R_x/R_y, 1 of a
-    circle. Between lines (ratio 0) its asymptotes go as those of :func:`moes_line` at the largest load per width."""
+    """Central film of an elliptic contact in Moes units, all regimes (Nijenbanning, Venner & Moes 1994); ratio: R_x/R_y, 1 for
+    a circle. Towards lines (ratio 0) its asymptotes scale as those of :func:`moes_line` with the largest load per width.
+    """
     wide = 1 + 0.006 * math.log(ratio) + 0.63 * ratio ** (4 / 7)
     H_RI = 145 * (1 + 0.796 * ratio ** (14 / 15)) ** (-15 / 7) / ratio * M**-2.0
     H_RP = 1.29 * (1 + 0.691 * ratio) ** (-2 / 3) * L ** (2 / 3)
@@ -135,7 +141,7 @@ def moes_line(M, L):
 
 
 def moes_numbers(load, R, E, eta0, alpha, u_m, kind="line"):
-    """(M, L) with U = 2 eta0 u_m/(E' R')."""
+    """Moes numbers (M, L) with U = 2 eta0 u_m/(E' R')."""
     U = 2 * eta0 * u_m / (E * R)
     L = alpha * E * U**0.25
     return (load / (E * R) * U**-0.5 if kind == "line" else load / (E * R**2) * U**-0.75), L

@@ -14,7 +14,7 @@ SCENE = ('scene = "gear"', "oil, bodies, feature and numerics: a built-in scene,
 
 
 def new(path, base):
-    """Write the built-in pair `base` with every value, unit, meaning and range. Raises SceneError where it cannot."""
+    """Write the built-in pair `base` with every value, unit, meaning and range. Raises SceneError if that is not possible."""
     path = Path(path)
     pair = gear_pair(base)
     scene_file.check_new(path)
@@ -22,7 +22,7 @@ def new(path, base):
 
 
 def dumps(pair, about):
-    """TOML text of a pair; about: what it is."""
+    """TOML text of a pair; about: its description."""
     values = dataclasses.asdict(pair)
     rows = [(f"{key} = {scene_file.toml_value(values[key])}", declared.sentence) for key, declared in kinds(GearPair).items()]
     lines = [f"{text:<{scene_file.COLUMN}}  # {sentence}" for text, sentence in (SCENE, ("[gear]", about), *rows)]

@@ -1,4 +1,4 @@
-"""A pair of external involute gears as a drawing gives it: teeth, profile shifts, centre distance, tips, torque and speed."""
+"""Pair of external involute gears as on a drawing: teeth, profile shifts, centre distance, tips, torque and speed."""
 
 import math
 from dataclasses import dataclass
@@ -17,8 +17,8 @@ LARGEST = 15.0  # m, of a wheel: 91.5 was meant in mm
 class GearPair:
     """A pair of external involute gears; the pinion (1) drives the gear (2).
 
-    Of x1, x2 and a_w, what is not given follows from the others. load_share is of spur gears; without it: 1/3 to 2/3 from A
-    to B, 1 to D, 2/3 to 1/3 at E.
+    Of x1, x2 and a_w, missing values follow from the others. load_share is for spur gears; without it: 1/3 to 2/3 from A to B,
+    1 to D, 2/3 to 1/3 at E.
 
     Examples
     --------
@@ -73,7 +73,9 @@ class GearPair:
             self._set(a_w=self.distance_of_shifts)
 
     def _settle_distance(self):
-        """A centre distance beside both shifts: the teeth must not jam, nor play more than backlash does."""
+        """Check a centre distance given with both shifts: the teeth must not jam, and their play must not exceed the
+        backlash.
+        """
         tight = self.distance_of_shifts
         if self.a_w and not -TIGHT * self.m_n <= self.a_w - tight <= LOOSE * self.m_n:
             raise SceneError(f"gear.a_w = {self.a_w:g} m and x1 + x2 = {self.x1 + self.x2:g} contradict each other: without "
@@ -106,7 +108,7 @@ class GearPair:
 
     @property
     def bulk(self):
-        """Bulk temperature, deg C; None where it is not given."""
+        """Bulk temperature, deg C; None if it is not given."""
         return self.bulk_temperature if math.isfinite(self.bulk_temperature) else None
 
     @property
@@ -134,7 +136,7 @@ class GearPair:
         return self.a_0 * math.cos(self.alpha_t) / math.cos(angle_of(inv(self.alpha_t) + rise))
 
     def _sum_of_shifts(self):
-        """x1 + x2 that the centre distance needs."""
+        """Sum x1 + x2 that the centre distance needs."""
         cosine = self.a_0 * math.cos(self.alpha_t) / self.a_w
         if cosine >= 1:
             raise SceneError(f"gear.a_w = {self.a_w:g} m leaves no line of action; allowed: more than "
@@ -149,7 +151,7 @@ def inv(alpha):
 
 
 def angle_of(involute):
-    """Angle (rad) of an involute function more than 0, by Newton from the series alpha = (3 inv)^(1/3)."""
+    """Angle (rad) whose involute function is `involute` > 0, by Newton from alpha = (3 inv)^(1/3)."""
     alpha = min((3 * involute) ** (1 / 3), 1.4)
     for _ in range(50):
         alpha -= (inv(alpha) - involute) / math.tan(alpha) ** 2
@@ -165,7 +167,7 @@ PAIRS = {
 
 
 def gear_pair(name):
-    """The built-in pair of that name. Raises SceneError with the nearest name."""
+    """Built-in pair with this name. Raises SceneError with the nearest name."""
     if name not in PAIRS:
         raise SceneError(f"unknown gear pair {name!r}{nearest(name, PAIRS)}; built in: {', '.join(PAIRS)}; or name a TOML or "
                          "CSV file")

@@ -1,4 +1,4 @@
-"""The grid that reaches a target error, from what `tehl bench accuracy` measured on the built-in scenes."""
+"""Grid that reaches a target error, from the errors that `tehl bench accuracy` measured on the built-in scenes."""
 
 import functools
 import json
@@ -20,19 +20,21 @@ MULTIPLE = 32  # of columns: the coarser grids of the solver need halves of halv
 
 
 def reaching(description, target):
-    """The scene on a grid and a domain with which the largest error of film, pressure and Findley index is about `target`: up
-    to half of it by the domain, which may end nearer where that is less. Raises SceneError."""
+    """Scene on a grid and a domain with which the largest error of film, pressure and Findley index is about `target`.
+
+    Up to half of it is the error of the domain, whose ends may then be nearer. Raises SceneError.
+    """
     wide = domain.within(description, target / 2)
     nx, ny = grid_for(wide, target)
     return wide.replace(**{"grid.nx": nx, "grid.ny": ny})
 
 
 def grid_for(description, target):
-    """(nx, ny) cells with which the largest error of film, pressure and Findley index is about `target` (relative).
+    """Cells (nx, ny) with which the largest relative error of film, pressure and Findley index is about `target`.
 
-    The resolution counts: cells per contact half-width of a steady scene, per feature width of a passage; measured maps must be
-    seen, too (:mod:`tehl_taichi.scene.surface.maps.map_warnings`). Beyond the finest measured grid the error is taken to fall
-    in proportion to the cells. Raises SceneError where that needs too fine a grid.
+    The measure is the resolution: cells per contact half-width in a steady scene, per feature width in a passage. Measured maps
+    must also be resolved (:mod:`tehl_taichi.scene.surface.maps.map_warnings`). Beyond the finest measured grid the error is
+    assumed to be inversely proportional to the number of cells. Raises SceneError if that needs too fine a grid.
     """
     measured = families()[family_of(description)]
     errors = {int(nx): error for nx, error in measured["errors"].items()}
@@ -46,8 +48,9 @@ def grid_for(description, target):
 
 
 def _seeing_maps(description, nx, ny):
-    """This grid, or the first of twice its columns and rows, four times ... that sees the measured maps; where none of up to
-    MOST columns does, this one, with the scene's warnings."""
+    """This grid, or the first with 2, 4, ... times its columns and rows that resolves the measured maps; if no grid of up to
+    MOST columns does, this one, with the scene's warnings.
+    """
     return refinement.first(description.replace(**{"grid.nx": nx, "grid.ny": ny}), map_warnings.carried, MOST) or (nx, ny)
 
 
@@ -58,21 +61,21 @@ def families():
 
 
 def family_of(description):
-    """Which of the measured families a scene belongs to."""
+    """Family of the measured scenes to which a scene belongs."""
     if description.transient:
         return "passage" if description.isothermal else "thermal passage"
     return "steady line" if description.contact.kind == "line" else "steady circle"
 
 
 def columns_per_width(description):
-    """Columns for one cell per contact half-width, or per feature width where features pass."""
+    """Number of columns for one cell per contact half-width, or per feature width if features pass."""
     g, a = description.grid, Scales.of(description).a
     widths = [f.width for f in description.features if f.width] if description.transient else []
     return (g.x_max - g.x_min) * a / min([a, *widths])
 
 
 def _columns(errors, target):
-    """Columns at which the measured error is the target: power laws between the grids, first order beyond the finest."""
+    """Columns at which the measured error is `target`: power laws between the measured grids, first order beyond the finest."""
     grids = sorted(errors)
     if target < errors[grids[-1]]:
         return grids[-1] * errors[grids[-1]] / target

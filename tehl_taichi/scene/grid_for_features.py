@@ -1,4 +1,4 @@
-"""The grid that resolves the features of a scene, with a fine window where that takes less work."""
+"""Grid that resolves the features of a scene, with a fine window if that takes less work."""
 
 import contextlib
 
@@ -18,19 +18,22 @@ KEYS = "grid.nx", "grid.ny", "zoom.factor"
 
 
 def is_open(scene, changes=()):
-    """Whether the user left the grid of a scene open, in the scene and in changes of it (full keys)."""
+    """Whether neither the scene nor changes of it (full keys) set the grid."""
     return not {key for key in {*idle_keys.user_keys(scene), *changes} if key in KEYS}
 
 
 def fitting(base, keys):
-    """As :func:`chosen`, for `base` with changes of these full keys."""
+    """Grid for `base` with changes of these full keys: see :func:`chosen`."""
     steady = {key: value for key, value in keys.items() if not key.startswith("time.")} | {"time.steady_only": True}
     return chosen(base.replace(**steady))
 
 
 def chosen(scene):
-    """({full key: value}, words about them): ({}, "") where the grid resolves every feature, or none that takes WORK does.
-    scene: with its contact; nothing of its passage is looked at."""
+    """Choose a grid: ({full key: value}, text about them).
+
+    ({}, "") if the present grid resolves every feature, or if every sufficient grid takes more than WORK. Only the contact of
+    the scene matters, not its passage.
+    """
     sights = resolution.sights(scene, passing=True)
     if all(sight.cells >= ENOUGH for sight in sights):
         return {}, ""
@@ -40,8 +43,9 @@ def chosen(scene):
 
 
 def _way(scene, sights, aim, factor):
-    """(changes, words) of a grid that has `aim` cells of every length in a window so many times as fine; None where it takes
-    more than WORK, or the scene has no room for the window."""
+    """(changes, text) of a grid with `aim` cells per length in a window `factor` times as fine; None if it takes more than
+    WORK, or if the window does not fit.
+    """
     cells = aim / max(factor, 1)
     ny = max(_count(scene, sights, "ny", cells, ROWS), 0 if factor else scene.grid.ny)
     widest = max(scene.grid.nx, _count(scene, sights, "nx", cells, COLUMNS))
@@ -54,14 +58,14 @@ def _way(scene, sights, aim, factor):
 
 
 def _count(scene, sights, key, cells, least):
-    """Cells along an axis that give every length `cells` of them."""
+    """Cells along an axis with `cells` of them per length of every feature."""
     own, (fewest, multiple) = getattr(scene.grid, key), least
     needed = max([fewest, *(own * cells / sight.cells for sight in sights if sight.count == key)])
     return int(-(-needed // multiple)) * multiple
 
 
 def _windowed(scene, factor):
-    """Work of a run with a window over that without."""
+    """Work of a run with a window, relative to one without."""
     s, g = Scales.of(scene), scene.grid
     domain = (g.x_max - g.x_min) / 2, g.y_max * s.b / s.a
     shares = [min((max(f.reach, f.reach_y) / s.a + beside) / half, 1.0) for f in scene.features
@@ -70,7 +74,7 @@ def _windowed(scene, factor):
 
 
 def _work(nx, ny):
-    """Nodes times steps, which are as many as columns."""
+    """Nodes times steps; the number of steps is proportional to the columns."""
     return nx * nx * ny
 
 

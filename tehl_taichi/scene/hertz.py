@@ -5,13 +5,13 @@ import math
 
 
 def line(load, R, E):
-    """(half-width a, maximum pressure p_H) for load per length f (N/m), E' as in 2/E' = sum (1-nu^2)/E [Eq 1.6]."""
+    """Half-width a and maximum pressure p_H for load per length f (N/m); 2/E' = sum (1-nu^2)/E [Eq 1.6]."""
     a = math.sqrt(8 * load * R / (math.pi * E))
     return a, 2 * load / (math.pi * a)
 
 
 def line_load(p_H, R, E):
-    """Load per length that gives the maximum pressure p_H."""
+    """Load per length (N/m) for the maximum pressure p_H."""
     return 2 * math.pi * R * p_H**2 / E
 
 
@@ -27,7 +27,7 @@ def point_gap(X):
 
 
 def gap_reaches(H, gap=line_gap, farthest=10.0):
-    """Distance from the centre, in a, where the gap beside the dry contact is H a^2/R' (`farthest` at most)."""
+    """Distance from the centre, in a, at which the gap beside the dry contact is H a^2/R' (at most `farthest`)."""
     low, high = 1.0, farthest
     for _ in range(40):
         X = 0.5 * (low + high)
@@ -36,14 +36,15 @@ def gap_reaches(H, gap=line_gap, farthest=10.0):
 
 
 def point(load, R, E):
-    """(radius a, maximum pressure p_H) of a circular contact, load in N (Johnson, section 4.2)."""
+    """Radius a and maximum pressure p_H of a circular contact, load in N (Johnson, section 4.2)."""
     a = (3 * load * R / (2 * E)) ** (1 / 3)
     return a, 3 * load / (2 * math.pi * a**2)
 
 
 def elliptic_integrals(m):
-    """(K, E), complete elliptic integrals of the first and second kind with parameter m = e^2 < 1, by the
-    arithmetic-geometric mean (Abramowitz & Stegun 17.6)."""
+    """Complete elliptic integrals (K, E) of the first and second kind with parameter m = e^2 < 1, by the arithmetic-geometric
+    mean (Abramowitz & Stegun 17.6).
+    """
     a, b, c, total, power = 1.0, math.sqrt(1 - m), math.sqrt(m), 0.5 * m, 1.0
     while abs(c) > 1e-16:
         a, b, c = (a + b) / 2, math.sqrt(a * b), (a - b) / 2
@@ -69,7 +70,7 @@ def axes_ratio(radius_ratio):
 
 
 def ellipse(load, R_x, R_y, E):
-    """(half-axis a along x, half-axis b along y, maximum pressure) of an elliptic contact, load in N (Johnson, 4.2)."""
+    """Half-axis a along x, half-axis b along y and maximum pressure of an elliptic contact, load in N (Johnson, 4.2)."""
     if R_x == R_y:
         a, p_H = point(load, R_x, E)
         return a, a, p_H
@@ -83,5 +84,5 @@ def ellipse(load, R_x, R_y, E):
 
 
 def ellipse_load(p_H, R_x, R_y, E):
-    """Load (N) that gives the maximum pressure p_H: it grows with its cube."""
+    """Load (N) for the maximum pressure p_H; it is proportional to p_H^3."""
     return (p_H / ellipse(1.0, R_x, R_y, E)[2]) ** 3

@@ -1,7 +1,7 @@
-"""Keys of a scene that change nothing in it, and why: for options, --set, --over, files and Python alike.
+"""Keys of a scene without effect, and the reason: for options, --set, --over, files and Python alike.
 
-Found from what declares keys (laws, shapes, criteria) and from what a scene leaves out (heat, a passage, slip, a dimension): a
-new law or shape needs no line here.
+Found from the entries that declare keys (laws, shapes, criteria) and from the parts that a scene leaves out (heat, a passage,
+slip, a dimension). A new law or shape needs no line here.
 """
 
 from types import SimpleNamespace
@@ -35,28 +35,28 @@ NUDGE = 0.01  # of a number, by which it is changed to see whether a law takes i
 
 
 def idle(scene):
-    """{full key: why it changes nothing} in this scene."""
+    """{full key: reason} of all keys without effect in this scene."""
     return {**resting(scene), **idle_warnings(scene)}
 
 
 def idle_warnings(scene):
-    """Warnings about keys that another law, shape or description takes: whoever gives one means that."""
+    """Reasons for keys that belong to another law, shape or description; the user probably means that one."""
     return dict([*_overruled(scene), *_other_laws(scene), *_other_shapes(scene)])
 
 
 def resting(scene):
-    """Keys of what this scene leaves out."""
+    """Reasons for keys that belong to parts this scene leaves out."""
     return dict(found for rule in RULES for found in rule(scene))
 
 
 def signature(scene):
-    """{full key: value} of what acts: equal for scenes that give the same results."""
+    """{full key: value} of all keys with an effect: equal for scenes that give equal results."""
     without = idle(scene)
     return {key: value for key, kind, value in keys.every(scene) if key not in without and key not in LABELS}
 
 
 def doubts(scene):
-    """A sentence about every key that the user gave although it has no effect."""
+    """One sentence about every key that the user gave although it has no effect."""
     found, own = idle(scene), user_keys(scene)
     beside = {"time.steady_only", *["grid.ny"] * ("grid.nx" in own)}  # says what is so; --grid gives both
     beside |= {"time.steps"} if scene.time.steps <= 0 else set()  # all of none, none
@@ -68,8 +68,10 @@ def doubts(scene):
 
 
 def user_keys(scene):
-    """Full keys that the user gave; of a scene made of its parts in Python those of another value than the declared one,
-    without what follows from names, sheets and other keys."""
+    """Full keys that the user gave.
+
+    For a scene made in Python: keys whose value differs from the default and does not follow from names, sheets or other keys.
+    """
     return _unusual(scene) if scene.user_keys is None else scene.user_keys
 
 
@@ -80,7 +82,7 @@ def _unusual(scene):
 
 
 def _usual(scene, name, part):
-    """(key, its value if the user gives none) of a part; None where it follows from others."""
+    """(key, its value if the user gives none) of a part; None if it follows from other keys."""
     follow = FOLLOW[name](vars(part)) if name in FOLLOW else ()
     follow += ("u_m",) * (name == "operation" and scene.contact.moes_M > 0)
     brought = vars(OILS.get(part.name, Oil())) if name == "oil" else {}
@@ -91,7 +93,7 @@ def _usual(scene, name, part):
 
 
 def shown(key, scene):
-    """A full key as people write it: the only feature needs no number."""
+    """Full key as people write it: without the number if there is only one feature."""
     return key.replace("feature.0.", "feature.") if len(scene.features) == 1 else key
 
 
@@ -121,7 +123,7 @@ def _other_shapes(scene):
 
 
 def _rheology(scene):
-    """Numbers of shear laws that were not chosen, and of friction where nothing slips."""
+    """Numbers of shear laws that are not chosen, and of friction without slip."""
     law = rheology.LAWS[scene.rheology.law]
     for key in declared({**rheology.LAWS, BOUNDARY.name: BOUNDARY}):
         if key not in law.numbers and key not in BOUNDARY.numbers:
@@ -135,7 +137,7 @@ def _friction(values):
 
 
 def _changes(function, values, key):
-    """Whether a function of these values gives anything else when the number `key` is another one."""
+    """Whether the result of a function of these values depends on the number `key`."""
     number = getattr(values, key)
     if isinstance(number, tuple):
         return True
@@ -144,7 +146,7 @@ def _changes(function, values, key):
 
 
 def _oil(scene):
-    """Numbers that no law takes at the one temperature of an isothermal film, and where expansion makes no difference."""
+    """Numbers that no law uses at the temperature of an isothermal film, and `expansion` if it makes no difference."""
     laws = _laws(scene)
     now, sheet = laws(scene.oil), data_sheet.follows(vars(scene.oil))
     for key in declared({law.name: law for law in scene.oil.laws}):
@@ -157,7 +159,7 @@ def _oil(scene):
 
 
 def _laws(scene):
-    """Function of an oil: what its laws give where the film of this scene may be."""
+    """Function of an oil: values of its laws at the pressures and temperature that the film of this scene may have."""
     p, inlet = np.array(PARTS) * Scales.of(scene).p_H, scene.operation.temperature
     if scene.isothermal:
         return lambda oil: _values((ln_eta, _density_of(scene)), oil, p, inlet + 0 * p)
@@ -166,12 +168,12 @@ def _laws(scene):
 
 
 def _values(laws, oil, p, Gamma):
-    """Values of laws at all places, a row each."""
+    """Values of laws at all points, one row per law."""
     return np.array([law(oil, p, Gamma) + 0 * p for law in laws])
 
 
 def _density_of(scene):
-    """The density law of an isothermal film of this scene."""
+    """Density law of an isothermal film of this scene."""
     def law(oil, p, Gamma):
         expansion = in_one_temperature(oil.expansion, scene.keeps_expansion)
         return density.rho_ratio(SimpleNamespace(**{**vars(oil), "expansion": expansion}), p, Gamma)
@@ -191,7 +193,7 @@ def _temperature(scene):
 
 
 def _warmer(scene):
-    """As :func:`_laws` asks it, at another inlet temperature."""
+    """The scene at another inlet temperature, with the attributes that :func:`_laws` uses."""
     return SimpleNamespace(contact=scene.contact, load=scene.load, body_a=scene.body_a, body_b=scene.body_b, isothermal=True,
                            keeps_expansion=scene.keeps_expansion, operation=SimpleNamespace(
                                u_m=scene.operation.u_m, temperature=scene.operation.temperature + 1.0))
@@ -215,7 +217,7 @@ def _expansion_of_bodies(scene):
 
 
 def _passage(scene):
-    """Keys that need a feature that passes."""
+    """Keys that need a passing feature."""
     if scene.transient:
         return
     if not scene.features:
@@ -238,7 +240,7 @@ def _fatigue(scene):
 
 
 def _strength(scene):
-    """Constants that the tables of all bodies replace, and keys of tables that none has."""
+    """Constants that the tables of all bodies replace, and keys of tables that do not exist."""
     if not scene.has_fatigue:
         return
     tables, f = [Strength(scene.fatigue, surface).table for surface in scene.judged], scene.fatigue
@@ -281,7 +283,7 @@ def _across(scene):
 
 
 def _steel(scene):
-    """Hardening of steel that does not flow."""
+    """Hardening of steel that does not yield."""
     reasons = run_in.elastic_bodies(scene) if scene.runs_in else dict.fromkeys("ab", "no run-in (time.run_in = 0)")
     for name, why in reasons.items():
         yield f"bodies.{name}.hardening", f"steel of body {name} does not flow: {why}"
@@ -291,8 +293,11 @@ RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _
 
 
 def given_keys(scene, tables):
-    """Names of the keys that the nested tables of a scene file give: of a section with all its keys (written by tehl) those
-    with another value than the default and than every built-in scene."""
+    """Names of the keys that the nested tables of a scene file give.
+
+    A section with all its keys was written by tehl; of it only values count that differ from the default and from every
+    built-in scene.
+    """
     from tehl_taichi.scene.builtin import BUILT_INS
 
     usual = [{key: value for key, _, value in keys.every(one)} for one, _ in BUILT_INS.values()]

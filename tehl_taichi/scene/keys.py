@@ -1,4 +1,4 @@
-"""All keys of a scene by their full names, with what they are declared as."""
+"""All keys of a scene by their full names, with their declarations."""
 
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
@@ -10,14 +10,14 @@ CLASSES = {**SECTIONS, "oil": Oil, "bodies.a": Body, "bodies.b": Body, "feature"
 
 
 def parts(scene):
-    """{name before the key, as in "bodies.a" or "feature.0": that part} of a scene."""
+    """{prefix of the keys, such as "bodies.a" or "feature.0": part} of a scene."""
     sections = {name: getattr(scene, name) for name in SECTIONS}
     features = {f"feature.{n}": feature for n, feature in enumerate(scene.features)}
     return {**sections, "oil": scene.oil, "bodies.a": scene.body_a, "bodies.b": scene.body_b, **features}
 
 
 def every(scene):
-    """(full key, its declaration, its value) of every key of a scene but name and note."""
+    """Generator of (full key, declaration, value) of every key of a scene except name and note."""
     for name, part in parts(scene).items():
         for key, kind in kinds(type(part)).items():
             yield f"{name}.{key}", kind, getattr(part, key)

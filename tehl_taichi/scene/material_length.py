@@ -1,4 +1,4 @@
-"""Scenes with a second index, of stresses averaged over fatigue.length."""
+"""Second fatigue index, of stresses averaged over fatigue.length."""
 
 from tehl_taichi.scene.rough_surfaces import is_rough
 from tehl_taichi.values.digits import micrometres
@@ -7,7 +7,7 @@ CELLS = 2.0  # of a grid, at least, in a length: a cell averages by itself
 
 
 def why_not(scene, spacing):
-    """Why there is none on a grid with this spacing (m) along x, or ""."""
+    """Reason why a grid with this spacing (m) along x has no second index, or ""."""
     if is_rough(scene):
         return "the surfaces are rough and judged by percentiles"
     if scene.fatigue.length < CELLS * spacing:

@@ -1,9 +1,9 @@
 """Pressure coefficient of a mineral oil, estimated from its viscosities at two temperatures.
 
-Steep oils (naphthenic) stiffen more. Roelands' exponent of the 13 mineral oils of Stachowiak & Batchelor, Engineering
-Tribology, table 2.3, follows Z = 0.28 + 0.112 m with the slope m of ASTM D341; the pressure coefficients that it gives are
-those of the table at 30, 60 and 100 deg C to 14 % (rms 7 %); one Z for all would be off by up to 21 %. So & Klaus' (1980)
-formula, as it is commonly quoted, is off by up to 40 % there.
+Oils with a steep viscosity-temperature curve (naphthenic) have a larger coefficient. Roelands' exponent of the 13 mineral oils
+of Stachowiak & Batchelor, Engineering Tribology, table 2.3, follows Z = 0.28 + 0.112 m with the slope m of ASTM D341. The
+resulting pressure coefficients agree with the table at 30, 60 and 100 deg C within 14 % (rms 7 %); one Z for all is off by up
+to 21 %, the formula of So & Klaus (1980), as commonly quoted, by up to 40 %.
 """
 
 import math
@@ -13,7 +13,8 @@ WITHIN = 0.15  # of alpha
 
 
 def slope(nu_40, nu_100):
-    """m of log10(log10(nu + 0.7)) = A - m log10(T), nu in mm2/s and T in K (ASTM D341), from nu in m2/s at 40 and 100 deg C.
+    """Slope m of log10(log10(nu + 0.7)) = A - m log10(T), nu in mm2/s and T in K (ASTM D341), from nu in m2/s at 40 and 100 deg
+    C.
 
     >>> round(slope(220e-6, 19e-6), 2)
     3.42
@@ -23,10 +24,10 @@ def slope(nu_40, nu_100):
 
 
 def exponent(nu_40, nu_100):
-    """Roelands' Z of such an oil, whatever its temperature."""
+    """Roelands' exponent Z of a mineral oil, independent of its temperature."""
     return 0.28 + 0.112 * slope(nu_40, nu_100)
 
 
 def holds(nu_40, nu_100):
-    """Whether its viscosity falls with temperature as those of mineral oils do."""
+    """Whether the viscosity falls with temperature as that of mineral oils does."""
     return STEEPNESS[0] <= slope(nu_40, nu_100) <= STEEPNESS[1]

@@ -1,7 +1,7 @@
-"""The two surfaces of a contact: which body each is of, how fast it moves and what it carries.
+"""The two surfaces of a contact: their body, speed and features.
 
-One clock for both: the centre of the first feature, X, moves with the surface that carries it (the reference), and a place of
-another surface has moved by pace * X when X has: its speed over that of the reference.
+Both share one clock: the centre X of the first feature moves with its surface (the reference). Points of the other surface move
+by pace * X; pace is the ratio of its speed to that of the reference.
 """
 
 from dataclasses import dataclass
@@ -14,8 +14,9 @@ STANDS = 1e-3  # of the mean speed: a slower surface does not pass
 
 @dataclass(frozen=True)
 class MovingSurface:
-    """name ("a" or "b"), body, speed (m/s), pace (speed over that of the reference), the features that it carries, and whether
-    it stands: these are in the contact from the start on."""
+    """One surface: name ("a" or "b"), body, speed (m/s), pace (speed relative to the reference), its features, and `stands`: it
+    is at rest, so its features are in the contact from the start.
+    """
 
     name: str
     body: Body
@@ -39,10 +40,10 @@ def _stands(speed, operation):
 
 
 def reference_name(scene):
-    """The surface that carries the first feature; a where there is none."""
+    """Name of the surface with the first feature; a without features."""
     return scene.features[0].surface if scene.features else "a"
 
 
 def _pace(speeds, name, reference):
-    """1 exactly of the reference, also where that is at rest."""
+    """Pace of a surface; exactly 1 for the reference, also if that is at rest."""
     return 1.0 if name == reference else speeds[name] / speeds[reference] if speeds[reference] else float("inf")

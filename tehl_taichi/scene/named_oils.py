@@ -1,4 +1,4 @@
-"""The oils that have names, and what a name means in a scene."""
+"""Named oils, and how a scene uses their names."""
 
 import dataclasses
 
@@ -17,8 +17,11 @@ NO_SOURCE = "not given"
 
 
 def from_values(values):
-    """Oil from a table. The name of a known oil gives the values that are not named; a new name must bring the numbers of its
-    viscosity law (see :func:`check_new`) or a data sheet, the others are those of the reference oil."""
+    """Oil from a table.
+
+    The name of a known oil supplies all values that the table lacks. A new name needs the numbers of its viscosity law (see
+    :func:`check_new`) or a data sheet; the others are those of the reference oil.
+    """
     if not isinstance(values, dict):
         return build(Oil, values, "oil")
     name = values.get("name", data_sheet.NAME if data_sheet.is_given(values) else Oil.name)
@@ -32,7 +35,7 @@ def from_values(values):
 
 
 def _from_sheet(name, known, values):
-    """Oil by a data sheet. None stands for a number that follows from it, one that is given must agree with it."""
+    """Oil from a data sheet. None marks a number that follows from it; a given number must agree with it."""
     if known and not data_sheet.is_given(known):
         raise SceneError(f"oil.name = {name!r} has its own viscosity and accepts no data sheet (oil.nu_40, nu_100); omit the "
                          "name, or choose a new one")
@@ -46,7 +49,7 @@ def _from_sheet(name, known, values):
 
 
 def check_new(name, given):
-    """Refuse a name that no known oil has unless its viscosity law and the numbers of that law are given with it."""
+    """Refuse an unknown name without its viscosity law and the numbers of that law."""
     checks.text("oil.name", name, 100, empty=False)
     law = given.get("viscosity")
     needed = viscosity.LAWS[law].needed if isinstance(law, str) and law in viscosity.LAWS else ()

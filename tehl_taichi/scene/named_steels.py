@@ -7,13 +7,13 @@ STEELS = collect(steels, steels.Steel)
 
 
 def completed(values):
-    """The table of a body with the numbers of its steel where it names one and does not give them itself."""
+    """Table of a body, completed with the numbers of the steel that it names."""
     name = values.get("material") if isinstance(values, dict) else None
     return {**STEELS[name].numbers, **values} if isinstance(name, str) and name in STEELS else values
 
 
 def doubts(scene):
-    """Sentences about bodies that have another number than the steel that they name."""
+    """Sentences about bodies whose numbers differ from the steel that they name."""
     for which, body in (("a", scene.body_a), ("b", scene.body_b)):
         numbers = STEELS[body.material].numbers if body.material else {}
         if other := [key for key, value in numbers.items() if getattr(body, key) != value]:

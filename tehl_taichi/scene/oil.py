@@ -22,7 +22,7 @@ _OIL: Any = section(
 
 
 def in_one_temperature(expansion, keeps):
-    """`oil.expansion` of a film with one temperature; keeps: see `Scene.keeps_expansion`."""
+    """`oil.expansion` of an isothermal film; keeps: see `Scene.keeps_expansion`."""
     return "always" if keeps and expansion == "thermal" else expansion
 
 
@@ -54,24 +54,24 @@ class Oil(_OIL):
 
     @property
     def law_numbers(self):
-        """Names of the numbers that its viscosity law takes."""
+        """Names of the numbers of its viscosity law."""
         return tuple(viscosity.LAWS[self.viscosity].numbers)
 
     @property
     def laws(self):
-        """All laws that it obeys."""
+        """All laws of the oil."""
         return viscosity.LAWS[self.viscosity], density.LAWS[self.density], *conduction.LAWS.values()
 
     @property
     def expands(self):
-        """Whether its density falls with temperature, if `expansion` allows it."""
+        """Whether its density falls with temperature (if `expansion` allows it)."""
         return density.LAWS[self.density].expansivity(self, 0.0, 40.0) > 0
 
     def density_ratio(self, p, Gamma, inlet):
-        """Density at p (Pa), Gamma (deg C), numbers or arrays, over that without pressure at the temperature `inlet`."""
+        """Density at p (Pa) and Gamma (deg C), numbers or arrays, relative to p = 0 at the temperature `inlet`."""
         return density.rho_film(self, p, Gamma) / density.rho_film(self, 0.0, inlet)
 
     @property
     def unused(self):
-        """Names of the numbers that only laws take which it did not choose."""
+        """Names of numbers that belong only to laws which it did not choose."""
         return set(declared({**viscosity.LAWS, **density.LAWS})) - {key for law in self.laws for key in law.numbers}

@@ -1,4 +1,4 @@
-"""Check that the laws of an oil have values at the pressures and the temperature of a scene, and what they leave out."""
+"""Validity of the laws of an oil at the pressures and the temperature of a scene."""
 
 import dataclasses
 
@@ -20,7 +20,7 @@ def check(scene):
 
 
 def _law_warnings(scene, what):
-    """The sentences that the laws of the oil have about this contact."""
+    """Sentences of the oil's laws about this contact."""
     for law in scene.oil.laws:
         sentence = getattr(law, what)(scene.oil, scene.operation.temperature, Scales.of(scene).p_H)
         if sentence:
@@ -34,7 +34,7 @@ def warnings(scene):
 
 
 def _name(oil):
-    """A known name with other numbers, or a new name with the numbers of a known oil."""
+    """Warnings about a known name with other numbers, or a new name with the numbers of a known oil."""
     values = dataclasses.asdict(oil)
     if oil.name in OILS:
         known = dataclasses.asdict(OILS[oil.name])
@@ -50,19 +50,19 @@ def _name(oil):
 
 
 def _same(oil, whole):
-    """Text: values that the oil shares with known oils."""
+    """Text about values that the oil shares with known oils."""
     dense = "density, " if not oil.rho_15 else "density's rise with pressure, "
     return "all its numbers" if whole else f"its {dense}conductivity and heat capacity"
 
 
 def _known(oils):
-    """Their names; of the reference oil that alone, others have it from there."""
+    """Names of these oils; only the reference oil if it is among them, because the others take its value."""
     names = [oil.name for oil in oils]
     return Oil.name if Oil.name in names else ", ".join(names)
 
 
 def _estimate(oil):
-    """Alpha that was not given."""
+    """Warning about an estimated alpha."""
     if data_sheet.estimated(oil):
         alpha = data_sheet.alpha_40(oil.nu_40, oil.rho0, oil.Dz)
         yield (f"oil.alpha_40 is not given: alpha at 40 deg C is estimated as {alpha * 1e9:.3g} 1/GPa, which holds within "
@@ -71,7 +71,9 @@ def _estimate(oil):
 
 
 def _shear(scene):
-    """The shear law of the reference oil with an oil of one's own: neither sheets nor laws of the viscosity bring one."""
+    """Warning about a user's oil with the shear law of the reference oil: neither data sheets nor viscosity laws include
+    one.
+    """
     oil, kept = scene.oil, scene.rheology
     if oil.name in OILS or kept != type(kept)() or not kept.thins or scene.operation.u_s == 0:
         return
@@ -83,7 +85,7 @@ def _shear(scene):
 
 
 def _without_temperature(scene):
-    """Warning: laws without temperature although the scene gives one."""
+    """Warning about laws that ignore temperature although the scene gives one."""
     oil, T = scene.oil, scene.operation
     numbers = viscosity.LAWS[oil.viscosity].thinned_by
     if numbers is None or any(getattr(oil, key) for key in numbers):

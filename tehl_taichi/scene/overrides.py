@@ -1,4 +1,4 @@
-"""Changes of a scene, on its description as a nested dictionary."""
+"""Changes of a scene in its form as a nested dictionary."""
 
 import dataclasses
 import math
@@ -21,10 +21,10 @@ NESTED, TOP = (*TABLES, *BODIES), (*TABLES, "feature", "name", "note")
 
 
 def applied(data, changes):
-    """`data` with changes {full key: value}; what they replace is cleared. Raises SceneError.
+    """Apply changes {full key: value} to `data` in place; returns it. Keys that they replace are removed. Raises SceneError.
 
-    data: a scene as nested dictionary, changed in place; where it stands in a file, sections and keys may be missing, and what
-    is no table is left to whoever makes a scene of it.
+    data: a scene as nested dictionary, which may lack sections and keys. Values of a wrong type are left for the checks of
+    Scene.
     """
     _clear(data, changes)
     if isinstance(data.get("contact"), dict):
@@ -39,15 +39,15 @@ def applied(data, changes):
 
 
 def merged(base, data):
-    """`base` (every value of a scene, as nested dictionary) with the tables of a scene file over it, as changes. Raises
-    SceneError."""
+    """Apply the tables of a scene file as changes to `base` (all values of a scene as nested dictionary). Raises SceneError."""
     known = {key: value for key, value in data.items() if key in TOP}
     return {**applied(base, dict(_as_changes(known))), **{key: data[key] for key in data.keys() - known.keys()}}
 
 
 def _as_changes(tables, above=""):
-    """(full key, value) of the tables of a file. An oil or a body of its own name, or of a data sheet, is a whole value: the
-    numbers of the base are not its own."""
+    """Tables of a file as changes (full key, value). An oil or a body with its own name or data sheet is one value: it does not
+    inherit numbers of the base.
+    """
     for key, value in tables.items():
         if isinstance(value, dict) and above + key in NESTED and not _brings_its_numbers(above + key, value):
             yield from _as_changes(value, f"{above}{key}.")
@@ -62,13 +62,15 @@ def _brings_its_numbers(key, table):
 
 
 def _table(data, key):
-    """The table of that key, made where there is none; one that is thrown away in place of what is no table."""
+    """Table with this key, created if missing; a temporary one if the value is no table."""
     found = data.setdefault(key, {})
     return found if isinstance(found, dict) else {}
 
 
 def check_effect(scene, changes):
-    """Refuse changes that the rest of the changed scene overrules, or that are of another law or shape. Raises SceneError."""
+    """Refuse changes that other keys of the changed scene override, or that belong to another law or shape. Raises
+    SceneError.
+    """
     strange = idle_keys.idle_warnings(scene)
     for key in changes:
         if key in strange:
@@ -76,7 +78,7 @@ def check_effect(scene, changes):
 
 
 def _clear(data, changes):
-    """Clear what the changes replace: another description of the load or of the speeds, a number of steps."""
+    """Remove the keys that the changes replace: another description of the load or the speeds, a number of steps."""
     loads = [key for key in aliases.LOADS if _is_given(changes.get(key))]
     if loads:
         pair = aliases.LOADS[2:]
@@ -93,8 +95,9 @@ def _clear(data, changes):
 
 
 def _follow_kind(contact, changes):
-    """Clear a radius along y that another kind or another radius along x decides, and refuse a load in the unit of another
-    kind. Raises SceneError."""
+    """Remove a radius along y that no longer applies to the new kind or radius along x; refuse a load in the unit of another
+    kind. Raises SceneError.
+    """
     before, kind = contact.get("kind", "line"), changes.get("contact.kind", contact.get("kind", "line"))
     if "contact.radius_y" not in changes and (kind != before or (kind == "point" and "contact.radius_x" in changes)):
         contact["radius_y"] = math.inf
@@ -106,12 +109,12 @@ def _follow_kind(contact, changes):
 
 
 def _is_given(value):
-    """Whether a value is more than 0, false or nothing; what is no single value is refused later."""
+    """Whether a value sets its key (not 0, false or None); values of a wrong type are refused later."""
     return bool(value) if value is None or isinstance(value, (int, float, str)) else True
 
 
 def _name_oil(data, changes):
-    """A known name brings the numbers of its oil; a new one must come with numbers, or a data sheet."""
+    """A known name supplies the numbers of its oil; a new name needs numbers or a data sheet."""
     oil = _table(data, "oil")
     name = changes.get("oil.name")
     if isinstance(name, str) and name in oils.OILS:
@@ -129,8 +132,9 @@ def _of(section, changes):
 
 
 def _read_sheet(oil, changes):
-    """A data sheet makes another oil of one that had none; what follows from it is found again, its source, too, unless that is
-    the user's own."""
+    """A data sheet replaces an oil that had none: numbers and source that follow from it are derived again; a user's source
+    stays.
+    """
     new, source = _of("oil", changes), text_of(oil.get("source"))
     sheet = {**{key: oil.get(key, 0.0) for key in data_sheet.KEYS}, **new}
     if data_sheet.is_given(sheet) and not data_sheet.is_given(oil):
@@ -142,7 +146,7 @@ def _read_sheet(oil, changes):
 
 
 def _name_steels(data, changes):
-    """A known name brings the numbers of its steel."""
+    """A known name supplies the numbers of its steel."""
     for which in ("a", "b"):
         name = changes.get(f"bodies.{which}.material")
         if isinstance(name, str) and name in STEELS:
@@ -150,7 +154,7 @@ def _name_steels(data, changes):
 
 
 def _assign(data, dotted, value):
-    """Set the dotted key. Raises SceneError where no scene has its section; of a section's keys whoever makes it knows."""
+    """Set the dotted key. Raises SceneError for an unknown section; the section checks its own keys."""
     *path, last = dotted.split(".")
     known = (*TOP, *aliases.SHORT)
     if not path and last not in known:
@@ -164,7 +168,7 @@ def _assign(data, dotted, value):
 
 
 def _place(data, path, dotted):
-    """The table in which the keys with that path stand. Raises SceneError."""
+    """Table that holds the keys with this path. Raises SceneError."""
     section, *rest = path
     if section == "feature" and rest and rest[0].isdecimal():
         target, rest = _feature(data, rest[0], dotted), rest[1:]
@@ -180,7 +184,7 @@ def _place(data, path, dotted):
 
 
 def _feature(data, number, dotted):
-    """The table of a feature."""
+    """Table of a feature."""
     features = data.get("feature", [])
     if not isinstance(features, list) or len(number) > 6 or int(number) >= len(features):
         count = len(features) if isinstance(features, list) else 0
@@ -194,6 +198,6 @@ def _unknown(dotted, key, known):
 
 
 def _with_section(key):
-    """' (did you mean ...?)' for the full keys that end in a key given without its section, or nothing."""
+    """Text ' (did you mean ...?)' with the full keys of a key given without its section, or nothing."""
     full = [f"{name}.{own}" for name, kind in keys.CLASSES.items() for own in kinds(kind) if own.lower() == str(key).lower()]
     return f" (did you mean {' or '.join(map(repr, full))}?)" if full else ""

@@ -1,4 +1,4 @@
-"""The next finer grids of a scene, and what the first costs."""
+"""Finer grids of a scene, and the work of the next one."""
 
 import math
 
@@ -7,13 +7,14 @@ from tehl_taichi.values.coded_text import Option, grid_option
 
 
 def doubled(scene):
-    """The scene on the grid with twice the cells each way."""
+    """Scene on the grid with twice the cells in each direction."""
     return scene.replace(**{"grid.nx": 2 * scene.grid.nx, "grid.ny": 2 * scene.grid.ny})
 
 
 def first(scene, enough, most):
-    """(nx, ny) of the first grid with once, twice, four times ... the cells for which enough(scene) holds; None if no grid up
-    to `most` columns does."""
+    """(nx, ny) of the first grid with 1, 2, 4, ... times the cells for which enough(scene) holds; None if no grid of up to
+    `most` columns does.
+    """
     while not enough(scene):
         if 2 * scene.grid.nx > most:
             return None
@@ -22,26 +23,27 @@ def first(scene, enough, most):
 
 
 def finer_grid_option(scene):
-    """'--grid 512x128 (8 times the work)': a passage has twice the steps, too."""
+    """Text such as '--grid 512x128 (8 times the work)'; a passage also has twice the steps."""
     work = 2 ** (1 + (not scene.one_dimensional) + scene.transient)
     return _with_work(grid_option(2 * scene.grid.nx, 2 * scene.grid.ny), work)
 
 
 def along(scene):
-    """'--grid 512x64 (4 times the work)': finer along x alone, which is what an exit needs (docs/exit.md)."""
+    """Text such as '--grid 512x64 (4 times the work)': finer along x only, which suffices for an exit (docs/exit.md)."""
     return _with_work(grid_option(2 * scene.grid.nx, scene.grid.ny), 2 ** (1 + scene.transient))
 
 
 def zoom_option(scene, work):
-    """'--zoom 4 (6 times the work)', where a fine window may be added to a passage; else "". work(factor): of the run with a
-    window over that of the run alone."""
+    """Text such as '--zoom 4 (6 times the work)' if the passage can have a fine window, else "". work(factor): work of the run
+    with a window over that of the run alone.
+    """
     if not scene.transient or scene.zooms or no_window(scene, 4):
         return ""
     return _with_work(Option("--zoom 4", "a window four times as fine"), math.ceil(work(4)))
 
 
 def no_window(scene, factor):
-    """Reason why a scene cannot have a window of this factor; "" where it can."""
+    """Reason why a scene cannot have a window of this factor; "" if it can."""
     try:
         scene.replace(**{"zoom.factor": factor})
     except SceneError as error:

@@ -1,4 +1,4 @@
-"""Resolution of features by the grid, and their way through the domain."""
+"""Resolution of features by the grid, and their path through the domain."""
 
 import math
 from dataclasses import dataclass, replace
@@ -20,8 +20,9 @@ MOST_FEATURES = 256  # each costs a time step 1 ms on 256 x 64 cells: with 60 of
 
 @dataclass(frozen=True)
 class AxisResolution:
-    """Resolution of a feature, by its number, along one axis: the key of its length there (m), cells of it and of the
-    grid."""
+    """Resolution of a feature (by its number) along one axis: key of its length there (m), cells per length, cells of the
+    grid.
+    """
 
     feature: int
     key: str
@@ -31,20 +32,21 @@ class AxisResolution:
     grid: int
 
     def grid_for(self, cells):
-        """Cells of the grid that give it so many."""
+        """Number of cells of a grid with `cells` per length."""
         multiple = kept_multiple(self.count, self.grid)
         return max(math.ceil(self.grid * cells / self.cells / multiple - 1e-9) * multiple, self.grid)
 
 
 def kept_multiple(count, cells):
-    """What a grid keeps to that is advised in place of one with so many cells along this axis: if that one can be halved for
-    error bars, so can the other."""
+    """Multiple to which the number of cells along this axis is rounded: if the present one can be halved for error bars, so can
+    the advised one.
+    """
     least = MULTIPLES[count][0]
     return least << HALVED if cells % (least << HALVED) == 0 else least
 
 
 def check(scene):
-    """Refuse features that no part of the domain meets, or that fall between the nodes of the grid. Raises SceneError."""
+    """Refuse features outside the domain, or that fall between the nodes of the grid. Raises SceneError."""
     if len(scene.features) > MOST_FEATURES:
         raise SceneError(f'{len(scene.features)} features are too many; allowed: at most {MOST_FEATURES}, or all of them in '
                          'one height map (shape = "map")')
@@ -63,7 +65,7 @@ def check(scene):
 
 
 def label(scene, n):
-    """Name of feature n in sentences."""
+    """Name of feature n in messages."""
     return "feature" if len(scene.features) == 1 else f"feature.{n}"
 
 
@@ -86,8 +88,9 @@ def _check_y(scene, scales, name, feature):
 
 
 def sights(scene, passing=False):
-    """An AxisResolution for each feature and axis along which it has a size; none where its shape names none. passing: of the
-    passage of a scene that is steady yet."""
+    """AxisResolution of each feature along each axis on which its shape declares a size. passing: of the passage, even if the
+    scene is still steady.
+    """
     g = scene.grid
     cell = dict(zip(MULTIPLES, Scales.of(scene).cell(g)))
     out = []
@@ -102,8 +105,9 @@ def sights(scene, passing=False):
 
 
 def resolved_features(scene, times):
-    """What of the features a grid with 1/times as many cells along each axis still resolves: of those that are sums of waves
-    the long ones, of the others those of its size."""
+    """Features that a grid with 1/times as many cells along each axis still resolves: of sums of waves the long waves, of
+    others those of sufficient size.
+    """
     cells = [FEWEST * times * cell for cell in Scales.of(scene).cell(scene.grid)]
     seen = [f.kind.coarser(f, *cells) for f in scene.features]
     seen = replace(scene, features=tuple(f for f in seen if f is not None))
@@ -112,7 +116,7 @@ def resolved_features(scene, times):
 
 
 def _remedy(scene, cells, worst):
-    """The grid that gives every feature so many cells, a window beside a grid, or what else helps."""
+    """Advice: the grid, or a window and a grid, that gives every feature `cells` cells, or another remedy."""
     if found := _finer(scene, cells):
         return found
     if not scene.zoom.factor and (found := _finer(scene, cells / WINDOW)):
@@ -121,7 +125,7 @@ def _remedy(scene, cells, worst):
 
 
 def _finer(scene, cells):
-    """The option of the grid that gives every feature so many cells; None where it has too many."""
+    """Option of the grid that gives every feature `cells` cells; None if it is too large."""
     need = {count: max([getattr(scene.grid, count), *(s.grid_for(cells) for s in sights(scene) if s.count == count)])
             for count in MULTIPLES}
     fits = all(need[count] <= most for count, (_, most) in MULTIPLES.items())

@@ -1,4 +1,4 @@
-"""Test for rough surfaces in a scene: many peaks pass through the contact, no single one decides."""
+"""Test for rough surfaces: many peaks pass through the contact, and no single one dominates."""
 
 import numpy as np
 
@@ -10,12 +10,12 @@ POINTS, LINES = 801, 9  # sampled of a surface, along lines of each direction
 
 
 def is_rough(scene):
-    """Whether a surface has PEAKS peaks, or pits, along a line in rolling direction or across it."""
+    """Whether a surface has at least PEAKS peaks or pits along a line in rolling direction or across it."""
     return any(_peaks(scene, surface.features) >= PEAKS for surface in scene.surfaces if surface.features)
 
 
 def _peaks(scene, features):
-    """Most peaks along a line of a surface."""
+    """Largest number of peaks along a line of a surface."""
     s, first = Scales.of(scene), features[0]
     wide = scene.grid.y_max * s.b if np.isfinite(s.b) else scene.grid.y_max * s.a
     reach = [f.reach for f in features if np.isfinite(f.reach)]
@@ -28,7 +28,7 @@ def _peaks(scene, features):
 
 
 def _heights(features, x, y):
-    """(points, lines) m, of places from the centre of the first of the features."""
+    """Heights (points, lines), m, at positions relative to the centre of the first feature."""
     first = features[0]
     out = np.zeros(np.broadcast(x, y).shape)
     for f in features:
@@ -37,7 +37,7 @@ def _heights(features, x, y):
 
 
 def _most(heights):
-    """The most peaks of one of the columns, between points that are higher than their neighbours."""
+    """Largest number of peaks (points above both neighbours) in a column."""
     inner = heights[1:-1]
     tops = (inner > heights[:-2]) & (inner >= heights[2:]) & (inner > HIGH * heights.max())
     return int(tops.sum(axis=0).max())

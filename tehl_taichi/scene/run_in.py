@@ -1,4 +1,4 @@
-"""Run-in of a scene: the bodies whose steel may flow, and scenes that have no answer."""
+"""Run-in of a scene: the bodies whose steel may yield, and a check for scenes without a solution."""
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.laws.hardening import HARDENINGS
@@ -12,18 +12,18 @@ DEEP = 0.7, 0.48  # a: where it is
 
 
 def flowing(scene):
-    """The surfaces whose steel may flow in run-in: those that move, of a body with a yield stress of its own."""
+    """Surfaces whose steel may yield during run-in: those that move and whose body has its own yield stress."""
     return tuple(s for s, rests in zip(scene.surfaces, scene.at_rest) if not rests and has_yield_stress(scene, s))
 
 
 def has_yield_stress(scene, surface):
-    """Whether the body has a yield stress of its own, or over its depth."""
+    """Whether the body has its own yield stress, constant or over its depth."""
     table = Strength(scene.fatigue, surface).table
     return surface.body.yield_stress > 0 or table is not None and table.has(YIELD)
 
 
 def elastic_bodies(scene):
-    """{name: why} of bodies that stay elastic in a scene with run-in."""
+    """{name: reason} of bodies that stay elastic in a scene with run-in."""
     if not scene.runs_in:
         return {}
     flow = {surface.name for surface in flowing(scene)}
@@ -32,7 +32,7 @@ def elastic_bodies(scene):
 
 
 def check(scene):
-    """Refuse run-in that would have no answer. Raises SceneError."""
+    """Refuse a run-in that has no solution. Raises SceneError."""
     count = scene.time.run_in
     if not count or not scene.transient:
         return
@@ -46,7 +46,7 @@ def check(scene):
 
 
 def _check_track(scene, surface):
-    """Refuse steel that flows under the smooth contact, all along its track."""
+    """Refuse steel that yields below the smooth contact, all along its track."""
     s = scales.Scales.of(scene)
     share, deep = (LINE, DEEP[0]) if s.line else (POINT, DEEP[1])
     limit = Strength(scene.fatigue, surface).yield_stress(deep * s.a)

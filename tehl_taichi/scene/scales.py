@@ -1,4 +1,4 @@
-"""Hertz units of a scene: what the dimensionless capitals stand for."""
+"""Hertz units of a scene, by which dimensionless capitals (X, P, H ...) are scaled."""
 
 import math
 from dataclasses import dataclass
@@ -8,9 +8,10 @@ from tehl_taichi.scene import hertz
 
 @dataclass(frozen=True)
 class Scales:
-    """kind: line or point (circular, elliptic); R = R' (along x) m; E = E' Pa; a m half-width along x (X = x/a), b m along
-    y (line: a); p_H Pa (P = p/p_H); h = a^2/R' m (H = h R'/a^2); u_m m/s; t = a/u_m s (T = t u_m/a); curvature: the
-    undeformed gap is X^2/2 + curvature Y^2/2."""
+    """Hertz units. kind: line or point (circular, elliptic); R = R' (along x) m; E = E' Pa; a m half-width along x (X = x/a), b
+    m along y (line: a); p_H Pa (P = p/p_H); h = a^2/R' m (H = h R'/a^2); u_m m/s; t = a/u_m s (T = t u_m/a); curvature: the
+    undeformed gap is X^2/2 + curvature Y^2/2.
+    """
 
     kind: str
     R: float
@@ -31,7 +32,7 @@ class Scales:
 
     @property
     def words(self):
-        """The dry contact in words."""
+        """Description of the dry contact."""
         across = "" if self.line else f", half-axis b = {self.b * 1e3:.4f} mm across"
         return f"Hertz contact: half-width a = {self.a * 1e3:.4f} mm{across}, p_H = {self.p_H / 1e9:.4f} GPa"
 
@@ -41,16 +42,16 @@ class Scales:
 
     @property
     def compliance(self):
-        """C in W = C int P/r dX dY: 1/(2 pi) for a line, 2/pi^2 for a circular contact."""
+        """Factor C in W = C int P/r dX dY: 1/(2 pi) for a line, 2/pi^2 for a circular contact."""
         return 2 * self.p_H * self.R / (math.pi * self.E * self.a)
 
     @property
     def load(self):
-        """int P dX (line) or int P dX dY in Hertz units."""
+        """Load int P dX (line) or int P dX dY in Hertz units."""
         return math.pi / 2 if self.line else 2 * math.pi / 3 * self.b / self.a
 
     def cell(self, grid):
-        """(along x, along y): size of a cell of the :class:`tehl_taichi.scene.sections.Grid` in m."""
+        """Size of a cell of the :class:`tehl_taichi.scene.sections.Grid` in m, (along x, along y)."""
         return (grid.x_max - grid.x_min) * self.a / grid.nx, grid.y_max * self.b / grid.ny
 
     @classmethod
@@ -66,12 +67,12 @@ class Scales:
 
 
 def peclet(material, speed, scales):
-    """Peclet number u a/alpha of a body's surface, alpha = k/(rho c): how far it moves while heat crosses a half-width."""
+    """Peclet number u a/alpha of a body's surface, alpha = k/(rho c): its motion while heat diffuses over one half-width."""
     return abs(speed) * scales.a * material.rho * material.c / material.k
 
 
 def reduced_modulus(scene):
-    """E' with 2/E' = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b [Eq 1]."""
+    """Reduced modulus E' with 2/E' = (1 - nu_a^2)/E_a + (1 - nu_b^2)/E_b [Eq 1]."""
     return 2 / sum((1 - b.nu**2) / b.E for b in (scene.body_a, scene.body_b))
 
 
@@ -90,6 +91,6 @@ def load_of(scene):
 
 
 def moes_speed(scene):
-    """u_m (m/s) at which the oil's alpha and eta0 give moes_L = alpha E' U^(1/4), U = 2 eta0 u_m/(E' R')."""
+    """Speed u_m (m/s) at which the oil's alpha and eta0 give moes_L = alpha E' U^(1/4), U = 2 eta0 u_m/(E' R')."""
     R, E = scene.contact.radius_x, reduced_modulus(scene)
     return (scene.contact.moes_L / (scene.oil.alpha * E)) ** 4 * E * R / (2 * scene.oil.eta0)

@@ -1,4 +1,4 @@
-"""A short scene file for a scan: what a user has to say of his contact, and nothing else."""
+"""Short scene file for a scan, with only the keys that a user has to set."""
 
 import os
 import tomllib
@@ -70,9 +70,12 @@ taper = {taper:<15}  # m: width over which the heights fade out at the rim
 
 
 def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0, lay=""):
-    """Write a scene file for the heights in the file `scan` on the contact of the built-in scene `base`; returns (what of the
-    scan was read, keys that are still to be filled in, why the scene is refused as it is or ""). What is not given is taken
-    from the file. Raises SceneError where nothing can be written, or the file contradicts what is given."""
+    """Write a scene file for the heights in the file `scan` on the contact of the built-in scene `base`.
+
+    Values that are not given are taken from the file. Returns (description of the scan, keys that are still to be filled in,
+    reason why the scene is refused for now or ""). Raises SceneError if nothing can be written, or if the file contradicts
+    given values.
+    """
     path, scan = Path(path), Path(scan)
     scene_file.check_new(path)
     table = height_map.table_of(scan)
@@ -85,8 +88,10 @@ def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0, lay=""):
 
 
 def scanned(scan, unit="", pixel=0.0):
-    """Keys of a feature of the heights in the file `scan`, as :func:`new` writes them: form removed, faded out at the rim; what
-    is not given is taken from the file. Raises SceneError."""
+    """Keys of a feature with the heights in the file `scan`: form removed, faded out at the rim.
+
+    Values that are not given are taken from the file. Raises SceneError.
+    """
     table = height_map.table_of(Path(scan))
     pixel = pixel or stated_keys.usable(table.stated.x)
     return dict(shape="profile" if height_map.is_profile(table.values) else "map", file=str(scan), pixel=pixel, level="form",
@@ -94,8 +99,9 @@ def scanned(scan, unit="", pixel=0.0):
 
 
 def _refusal(path, text):
-    """Why the scene cannot run as it is although every key may be meant; "" where it can, or where a key is still missing.
-    Raises SceneError for keys that cannot be meant."""
+    """Reason why the scene cannot run, for keys that may be right in another context; "" if it can, or if a key is still
+    missing. Raises SceneError for keys that are surely wrong.
+    """
     data = scene_file.with_folder(tomllib.loads(text), path.absolute().parent)
     try:
         build(Feature, data["feature"][0], "feature", "feature")
@@ -122,12 +128,12 @@ def _read(table):
 
 
 def _coordinates(spacing):
-    """Distance of the coordinates of a file that has some without their unit."""
+    """Lines about coordinates in a file that does not state their unit."""
     return [f"coordinates {spacing:g} apart: {stated_keys.in_units(spacing)}"] if spacing else []
 
 
 def _check_options(scan, profile, pixel_y, lay):
-    """Refuse options of another kind of file; lay is checked with the scene."""
+    """Refuse options for another kind of file; lay is checked with the scene."""
     if pixel_y and profile:
         raise SceneError(f"--pixel-y {pixel_y:g} has no effect: {scan} is a line profile")
     if lay and not profile:
@@ -137,7 +143,7 @@ def _check_options(scan, profile, pixel_y, lay):
 
 
 def _direction(profile, pixel_y, lay):
-    """Lines of the distance of rows and of how the heights lie."""
+    """Lines with the distance of rows and the orientation of the heights."""
     if not profile:
         spacing = PIXEL_Y.format(toml_value(pixel_y)) if pixel_y else NO_PIXEL_Y
         return spacing + MIRROR.format("x = true", "column")
@@ -159,7 +165,7 @@ def _text(path, f, base, scan, table, unit, pixel, pixel_y, lay):
 
 
 def _unless_steel(body):
-    """Begins the line of a body: a comment where the base has another one than steel, as the disc of glass."""
+    """Start of the line of a body: '# ' (a comment) if the base has another body than steel, such as a glass disc."""
     return "" if body == Body() else "# "
 
 
@@ -170,16 +176,16 @@ def _radius_y(contact):
 
 
 def _taper(shape, pixel, pixel_y):
-    """Micrometres, at most an eighth of the shorter side."""
+    """Taper in m: whole micrometres, at most an eighth of the shorter side."""
     side = min((count - 1) * step for count, step in zip(shape[::-1], (pixel, pixel_y)) if count > 1)
     return round(max(int(min(TAPER, side / SHARE) * 1e6), 1) * 1e-6, 9) if side else TAPER
 
 
 def _header(table):
-    """The lines before the first row, as comments: instruments write unit and distances there."""
+    """Lines before the first row, as comments: instruments write unit and distances there."""
     return "".join(f"#   its header: {_plain(line.strip())}\n" for line in table.header_lines[:LINES])
 
 
 def _plain(line):
-    """Text without letters that TOML does not allow in a comment."""
+    """Text without letters that are not allowed in TOML comments."""
     return "".join(letter if letter.isprintable() else " " for letter in line)[:LETTERS]

@@ -25,8 +25,9 @@ COLUMN = 26  # where the comments of short lines begin
 
 
 def load(path, changes=()):
-    """Scene from a TOML file; `base = "gear"` fills what is not given. changes: {key: value}, as if they stood in it.
-    Raises SceneError (also for broken TOML)."""
+    """Load a scene from a TOML file; `base = "gear"` supplies missing values. changes: {key: value} in place of those of the
+    file. Raises SceneError (also for broken TOML).
+    """
     path = Path(path)
     data = toml_file.read(path, "scene")
     plugins.use(data.pop(plugins.KEY, []), path)
@@ -35,14 +36,16 @@ def load(path, changes=()):
 
 
 def new(path, base):
-    """Write the built-in scene `base` with every value, under the name of the file. Raises SceneError where it cannot."""
+    """Write the built-in scene `base` with every value, under the name of the file. Raises SceneError if that is not
+    possible.
+    """
     path = Path(path)
     check_new(path)
     user_files.text(path, dumps(scene(base).replace(name=path.stem)))
 
 
 def check_new(path):
-    """Raises SceneError where no file can be written at `path` without overwriting one."""
+    """Raise SceneError if no new file can be written at `path`."""
     if os.path.lexists(path):
         raise SceneError(f"{path} exists already; choose another name")
     if not path.absolute().parent.is_dir():
@@ -50,7 +53,7 @@ def check_new(path):
 
 
 def with_folder(data, folder):
-    """Data with the paths of height maps and tables starting at `folder`, whatever folder the command runs in."""
+    """Data with the paths of height maps and tables relative to `folder` made independent of the working directory."""
     features = data.get("feature", [])
     for feature in features if isinstance(features, list) else []:
         if isinstance(feature, dict) and isinstance(feature.get("file"), str) and feature["file"]:
@@ -61,7 +64,7 @@ def with_folder(data, folder):
 
 
 def from_data(data, name, changes=()):
-    """Scene from a parsed file with changes {key: value}, which are made before anything is judged. Raises SceneError."""
+    """Scene from a parsed file with changes {key: value}, applied before all checks. Raises SceneError."""
     base, changes, data = data.pop("base", None), aliases.named(dict(changes)), in_units(data)
     own = _tables(data)
     u_m = data["operation"].get("u_m") if isinstance(data.get("operation"), dict) else None
@@ -74,7 +77,7 @@ def from_data(data, name, changes=()):
 
 
 def _tables(data):
-    """The tables that a file gives, as they are now: what follows from them is written into them later."""
+    """Copy of the tables of a file, before derived values are written into them."""
     lists = {key: [dict(one) if isinstance(one, dict) else {} for one in value] for key, value in data.items()
              if isinstance(value, list)}
     return lists | {key: {name: dict(one) if isinstance(one, dict) else one for name, one in value.items()}
@@ -82,7 +85,7 @@ def _tables(data):
 
 
 def _on_base(base, data):
-    """The nested dictionary of a scene: `data`, and what it leaves to its base."""
+    """Nested dictionary of a scene: `data`, completed from its base."""
     if base is None:
         return {"feature": [], **data}
     text("base", base)
@@ -90,8 +93,9 @@ def _on_base(base, data):
 
 
 def _spelled_out(data):
-    """Data with what follows from the names of its oil and steels, from a data sheet and from fatigue limits: a change that
-    takes these away leaves the numbers."""
+    """Data with all numbers that follow from oil and steel names, a data sheet and fatigue limits; so a change that removes
+    these keeps the numbers.
+    """
     for key, make in (("oil", named_oils.from_values), ("fatigue", Fatigue.from_values)):
         if key in data:
             data[key] = _every_number(make, data[key])
@@ -101,7 +105,7 @@ def _spelled_out(data):
 
 
 def _every_number(make, values):
-    """The table of a section with every number; one that is refused, as it is: what mends it may be still to come."""
+    """Table of a section with every number; an invalid one is returned unchanged, because later changes may correct it."""
     try:
         return dataclasses.asdict(make(values))
     except SceneError:
@@ -109,15 +113,14 @@ def _every_number(make, values):
 
 
 def _check_speed(found, u_m):
-    """Refuse a mean speed (m/s, or None) beside a Moes pair, unless it is the one that the pair gives (as files written by tehl
-    have it)."""
+    """Refuse a mean speed (m/s, or None) beside a Moes pair that gives another one (files written by tehl contain both)."""
     if u_m is not None and found.contact.moes_M > 0 and not math.isclose(u_m, found.operation.u_m, rel_tol=1e-6):
         raise SceneError(f"operation.u_m = {u_m:g} m/s and contact.moes_L = {found.contact.moes_L:g} contradict each other: "
                          f"the pair gives {found.operation.u_m:.4g} m/s; leave u_m out")
 
 
 def dumps(description):
-    """TOML text of a scene, every value written out with unit, range and meaning; reading it back gives an equal scene."""
+    """TOML text of a scene, every value with unit, range and meaning; reading it gives an equal scene."""
     data = description.to_dict()
     lines = [HEADER, *_commented((key, data[key], declared) for key, declared in TOP.items()), ""]
     for key in ("contact", "bodies.a", "bodies.b", "operation", "oil", "rheology"):
@@ -132,19 +135,19 @@ def dumps(description):
 
 
 def _table(head, values, kind, first=""):
-    """The lines of a section, commented from its declarations (see tehl_taichi.values.quantity)."""
+    """Lines of a section with comments from its declarations (see tehl_taichi.values.quantity)."""
     about = first + (kind.__doc__ or "").partition("\n")[0]
     keys = ((key, values[key], declared) for key, declared in kinds(kind).items())
     return [f"{head:<{COLUMN}}  # {about}", *_commented(keys), ""]
 
 
 def _commented(keys):
-    """A line each of (key, value, its declaration)."""
+    """One line for each (key, value, declaration)."""
     return [f"{f'{key} = {toml_value(value)}':<{COLUMN}}  # {declared.sentence}" for key, value, declared in keys]
 
 
 def toml_value(value):
-    """A value of a scene as TOML has it."""
+    """TOML text of a value of a scene."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):

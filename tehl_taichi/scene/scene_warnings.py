@@ -1,4 +1,4 @@
-"""Warnings about a scene that can be simulated, a sentence each, known before a run."""
+"""Warnings about a scene that can be simulated, known before a run; one sentence each."""
 
 from tehl_taichi.scene import (
     domain,
@@ -22,8 +22,7 @@ from tehl_taichi.values.quantity import Number
 
 
 def warnings(scene):
-    """Sentences with the value, the unit and what would be better, each once, with the code of their kind; [] for a scene
-    without doubts."""
+    """Warnings with the value, the unit and a remedy, each once, with its code; [] without doubts."""
     return coded_warning(CHECKS, scene)
 
 
@@ -33,7 +32,7 @@ def preview(scene):
 
 
 def _roughness(scene):
-    """A line for each rough surface, and the film by formula over their roughness."""
+    """One line for each rough surface, and the film by formula over their roughness."""
     found = surface_roughness.by_surface(scene)
     for name, one in found.items():
         before = f" (before the filter {one.before.words})" if one.before else ""
@@ -48,7 +47,9 @@ def doubtful_features(scene):
 
 
 def cut_passage(scene):
-    """A passage that ends although the feature still is in the contact; not one of no steps, which was chosen."""
+    """Warning about a passage that ends while the feature is still in the contact; a passage of 0 steps was the user's
+    choice.
+    """
     end = timeline.cut_at(scene)
     if end is not None and scene.time.steps != 0:
         whole = timeline.uncut(scene).path[1]
@@ -61,7 +62,7 @@ MISSED = 0.35  # of Fi, per a between moments: at most 2, 3.6 and 7 % at 0.06, 0
 
 
 def thinned(scene):
-    """Moments that a fatigue search misses where not every step is stored."""
+    """Warning about moments that a fatigue search misses because not every step is stored."""
     every, apart = scene.output.every, scene.output.every * timeline.step_length(scene)
     if every > 1 and scene.has_fatigue:
         text = (f"output.every = {every} leaves {apart:.3f} a between the moments of the fatigue search, so Fi can be "
@@ -74,7 +75,7 @@ FAINT, PRESSED = 1e8, 3e8  # Pa: steel under less hardly needs this program; wha
 
 
 def unusual(scene):
-    """Values that were perhaps meant in another unit."""
+    """Hints about values that were perhaps meant in another unit."""
     for key, kind, value in keys.every(scene):
         if isinstance(kind, Number) and isinstance(value, float) and (hint := kind.doubted(key, value)):
             yield hint
@@ -85,7 +86,7 @@ def unusual(scene):
 
 
 def counted_twice(scene):
-    """Residual stress beside a limit that contains it."""
+    """Warning about residual stress given with a limit that already contains it."""
     f = scene.fatigue
     if not scene.has_fatigue or f.limit_of != "contact":
         return
@@ -105,7 +106,7 @@ def left_out_of_window(scene):
 
 
 def wide_domain(scene):
-    """Warning: `auto` moved the inlet away from a thick film."""
+    """Warning that "auto" moved the inlet away from a thick film."""
     return filter(None, [domain.moved(scene)])
 
 

@@ -180,12 +180,12 @@ class Rheology(_RHEOLOGY):
 
     @property
     def thins(self):
-        """Whether shear takes something of the viscosity."""
+        """Whether shear reduces the viscosity."""
         return rheology.LAWS[self.law].thins
 
     @property
     def power(self):
-        """Power of the stress on the walls with which the flow beyond Newtonian oil grows, at most."""
+        """Largest power of the wall stress with which the flow exceeds that of a Newtonian oil."""
         return rheology.LAWS[self.law].power
 
 
@@ -194,7 +194,7 @@ class Rheology(_RHEOLOGY):
 class Thermal:
     """Energy equation; without it the film has the inlet temperature.
 
-    Nine nodes have an error of 0.01 %, seven of 0.1 %, also for the largest temperature of the profile through the nodes. One
+    The error of nine nodes is 0.01 %, of seven 0.1 %, also for the largest temperature of the profile through the nodes. One
     round (a lagged temperature) takes half the time and changes the film under an asperity by 0.3 %.
 
     Examples
@@ -288,7 +288,7 @@ class Fatigue:
             object.__setattr__(self, "depths", tuple(self.depths))
 
     def _follow_limits(self):
-        """Take the constants that follow from limits; others than these and the defaults are refused."""
+        """Set the constants that the limits determine; refuse given constants that differ from these and the defaults."""
         found = fatigue_limits.completed(self)
         given = {key: getattr(self, key) for key in fatigue_limits.follows(vars(self))}
         for key, value in found.items():
@@ -299,8 +299,10 @@ class Fatigue:
 
     @classmethod
     def from_values(cls, values):
-        """Section from a table, with unknown keys refused, and constants beside limits unless they are those that follow; None
-        stands for one that does. Raises SceneError."""
+        """Section from a table; unknown keys are refused, and constants beside limits that differ from those they determine.
+
+        None marks a derived constant. Raises SceneError.
+        """
         free = fatigue_limits.follows(values) if isinstance(values, dict) else ()
         made = build(cls, {key: value for key, value in values.items() if key not in free} if free else values, "fatigue")
         fatigue_limits.check_free({key: plain(values[key]) for key in free if values.get(key) is not None}, made)
@@ -312,7 +314,7 @@ class Fatigue:
 
     @property
     def listed(self):
-        """Depths (m) at which all points are searched, whatever is worst."""
+        """Depths (m) at which every point is searched."""
         return () if self.depths == AUTO else self.depths
 
 
@@ -348,7 +350,7 @@ class Grid:
 @documented
 @dataclass(frozen=True, repr=False)
 class Time:
-    """Path of the centre of the first feature and length of a step.
+    """Path of the centre of the first feature, and length of a step.
 
     Examples
     --------
@@ -406,7 +408,7 @@ class Numerics:
 @documented
 @dataclass(frozen=True, repr=False)
 class Output:
-    """What is stored.
+    """Contents of the store.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The two surface speeds in place of their mean and the slip."""
+"""Conversion of the two surface speeds to mean speed and slip."""
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.checks import number
@@ -6,7 +6,9 @@ from tehl_taichi.values.coerce import plain
 
 
 def of_surfaces(values):
-    """The table [operation] with u_m and srr in place of u_a and u_b (m/s), others as they are. Raises SceneError."""
+    """Table [operation] with u_m and srr in place of u_a and u_b (m/s); tables without them are returned unchanged. Raises
+    SceneError.
+    """
     if not isinstance(values, dict):
         return values
     values = dict(values)

@@ -1,4 +1,6 @@
-"""Films without temperatures whose oil is far too stiff to slide: their results rest on viscosities that were not measured."""
+"""Warning about isothermal films whose oil is far too stiff to slide: the result depends on viscosities beyond all
+measurements.
+"""
 
 import math
 
@@ -12,7 +14,7 @@ from tehl_taichi.values.coded_warning import with_data
 
 
 def warnings(scene):
-    """Warnings: oil at inlet temperature and Hertz pressure would need many times the stress that its law allows."""
+    """Warnings: the shear stress of oil at inlet temperature and Hertz pressure would be many times its limit."""
     if not (scene.isothermal and scene.shear_law.thins):
         return
     p_H, operation = Scales.of(scene).p_H, scene.operation

@@ -1,4 +1,4 @@
-"""Roughness of the two surfaces of a scene, before and after its filters, and of both together."""
+"""Roughness of the two surfaces of a scene, before and after its filters, and combined."""
 
 import math
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ MOST = 1024  # points along an axis, of surfaces that are sampled
 
 @dataclass(frozen=True)
 class SurfaceRoughness:
-    """used: the Roughness of what passes, not faded out; before: without its filter, None where it has none."""
+    """used: Roughness of the passing heights before fading; before: without the filter, None if there is no filter."""
 
     used: Roughness
     before: Roughness | None = None
@@ -24,7 +24,7 @@ class SurfaceRoughness:
 
 
 def by_surface(scene):
-    """{"a", "b": SurfaceRoughness} of the surfaces whose features are rough; {} where nothing passes."""
+    """{"a", "b": SurfaceRoughness} of the surfaces with rough features; {} if nothing passes."""
     if not scene.transient:
         return {}
     edge = scene.grid.y_max * Scales.of(scene).b
@@ -33,7 +33,7 @@ def by_surface(scene):
 
 
 def combined(found):
-    """(Sq in m, rms slope, skewness) of the sum of independent surfaces {name: SurfaceRoughness}: their squares add."""
+    """(Sq in m, rms slope, skewness) of the sum of independent surfaces {name: SurfaceRoughness}: squares add."""
     each = [one.used for one in found.values()]
     Sq = math.sqrt(sum(one.Sq**2 for one in each))
     cubes = sum(one.skewness * one.Sq**3 for one in each)
@@ -41,7 +41,7 @@ def combined(found):
 
 
 def to_dict(scene):
-    """The part `roughness` of a summary; {} of a scene without rough surfaces."""
+    """Part `roughness` of a summary; {} without rough surfaces."""
     found = by_surface(scene)
     out = {name: one.to_dict() for name, one in found.items()}
     if len(found) > 1:
@@ -50,7 +50,7 @@ def to_dict(scene):
 
 
 def rms_of(numbers):
-    """The rms height (m) of both surfaces together, of the part `roughness` of a summary; None where that has none."""
+    """Combined rms height (m) from the part `roughness` of a summary; None if it is missing."""
     if not numbers:
         return None
     both = numbers.get("combined") or next(iter(numbers.values()))
@@ -58,8 +58,7 @@ def rms_of(numbers):
 
 
 def _of(features, edge):
-    """Roughness of the features of one surface, of endless ones up to the edge (m) of the domain along y; None where there are
-    none, or they overlap nowhere."""
+    """Roughness of the features of one surface, up to the edge (m) of the domain along y; None without features or overlap."""
     if len(features) == 1 and features[0].kind.measured:
         f = features[0]
         before = Roughness.of(f.filtered(0.0), f.steps) if f.cutoff else None
@@ -69,7 +68,7 @@ def _of(features, edge):
 
 
 def _sampled(features, edge):
-    """(heights (points along y, along x) of all together where none is faded out, steps); None where that is nowhere."""
+    """(sum of the heights (points along y, along x) where no feature is faded out, steps); None if there is no such place."""
     (x, step_x), (y, step_y) = (_places(features, axis, far) for axis, far in ((0, math.inf), (1, edge)))
     if min(x.size, y.size) < 1 or max(x.size, y.size) < 4:
         return None
@@ -77,8 +76,9 @@ def _sampled(features, edge):
 
 
 def _places(features, axis, edge):
-    """(points along an axis within the patches of all features, at most `edge` (m) from 0, step): one point where nothing
-    varies along it."""
+    """(points along an axis within the patches of all features, at most `edge` (m) from 0; their step); one point if nothing
+    varies along it.
+    """
     name = "xy"[axis]
     inside = [(getattr(f, name), f.kind.patch(f)[axis] / 2 - f.taper) for f in features]
     low, high = max(at - half for at, half in inside), min(at + half for at, half in inside)

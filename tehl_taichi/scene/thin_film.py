@@ -1,4 +1,4 @@
-"""Grids for films as thin as the film formula has them."""
+"""Resolution of thin films by the grid, with the film formula."""
 
 from tehl_taichi.scene import hertz, refinement
 from tehl_taichi.scene.film_formula import heated_film, thinnest_film
@@ -16,19 +16,19 @@ SMOOTHEST = 10e-9  # m, rms height of polished balls and discs: under thinner fi
 
 
 def carried(scene):
-    """The film over the thinnest that the grid carries; below 1 the surfaces touch that should not."""
+    """Film by formula over the thinnest film that the grid resolves; below 1 the surfaces touch by mistake."""
     g, s = scene.grid, Scales.of(scene)
     gap = hertz.line_gap if s.line else hertz.point_gap
     return thinnest_film(scene) / (CARRIED * gap(1 + (g.x_max - g.x_min) / g.nx) * s.h)
 
 
 def needed(scene, most=FINEST):
-    """(nx, ny) of the grid with twice, four times, ... the cells that carries the film, or None beyond `most` columns."""
+    """(nx, ny) of the first grid with 2, 4, ... times the cells that resolves the film, None beyond `most` columns."""
     return refinement.first(scene, lambda one: carried(one) >= 1, most)
 
 
 def warnings(scene):
-    """A film too thin for the grid, or for any surface."""
+    """Warning about a film too thin for the grid, or for any surface."""
     film, thinnest, part = heated_film(scene), thinnest_film(scene), carried(scene)
     if film < SMOOTHEST:
         yield (f"the film formula has {film * 1e9:.2g} nm at the centre, less than the roughness of polished steel "
@@ -41,7 +41,7 @@ def warnings(scene):
 
 
 def remedy(scene):
-    """The grid that carries the film, in words."""
+    """Option of the grid that resolves the film."""
     size = needed(scene)
     if size:
         grid = grid_option(*size)

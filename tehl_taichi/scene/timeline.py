@@ -1,4 +1,4 @@
-"""The way of the first feature through the contact: how far a time step goes, how many there are, where a cut one ends."""
+"""Passage of the first feature through the contact: length and number of time steps, end of a cut passage."""
 
 import math
 
@@ -10,8 +10,11 @@ ALL = -1  # as time.steps
 
 
 def step_cells(scene):
-    """Cells that the first feature moves in a time step: the fastest one moves time.courant; with temperatures a whole fraction
-    of it where the other surface is much faster."""
+    """Cells that the first feature moves in a time step.
+
+    The fastest feature moves time.courant; with temperatures it is a whole fraction of that if the other surface is much
+    faster.
+    """
     cells = scene.time.courant / max((s.pace for s in scene.surfaces if s.features), default=1.0)
     if scene.isothermal:
         return cells
@@ -20,7 +23,7 @@ def step_cells(scene):
 
 
 def step_length(scene):
-    """Way of the first feature in a time step, a."""
+    """Distance (a) that the first feature moves in a time step."""
     return step_cells(scene) * (scene.grid.x_max - scene.grid.x_min) / scene.grid.nx
 
 
@@ -34,7 +37,7 @@ def total_steps(scene):
 
 
 def moments(scene):
-    """(how many stored moments fatigue.from_x and to_x leave, position in a of the first step and of the last)."""
+    """(number of stored moments between fatigue.from_x and to_x, position in a of the first step and of the last)."""
     (start, _), steps, every = scene.path, total_steps(scene), scene.output.every
     end, apart = start + steps * step_length(scene), every * step_length(scene)
     first = max(0, math.ceil((max(scene.fatigue.from_x, start) - start) / apart - 1e-9))
@@ -44,7 +47,7 @@ def moments(scene):
 
 
 def cut_at(scene):
-    """Position (a) at which the passage ends although its features still are in the contact, else None."""
+    """Position (a) at which the passage ends while its features are still in the contact, else None."""
     if not scene.transient:
         return None
     end = scene.path[0] + total_steps(scene) * step_length(scene)
@@ -52,24 +55,24 @@ def cut_at(scene):
 
 
 def clear(scene):
-    """Position of the first feature (a) from which on all of them are behind the contact."""
+    """Position (a) of the first feature from which on all features have left the contact."""
     a = Scales.of(scene).a
     return max((LATEST + (f.reach - f.x) / a) / s.pace for s, f in scene.passing)
 
 
 def uncut(scene):
-    """The scene with its whole passage: every step, until the features are behind the contact."""
+    """Scene with the whole passage: every step, until the features have left the contact."""
     end = {"time.x_end": math.inf} if scene.transient and scene.path[1] < clear(scene) else {}
     return scene.replace(**{"time.steps": ALL, **end})
 
 
 def most_steps(scene):
-    """Time steps that a run of this scene may ever have, also when a cut passage continues to its end."""
+    """Largest number of time steps of a run of this scene, also if a cut passage is extended to its end."""
     return total_steps(uncut(scene))
 
 
 def continued(scene, done, more=None):
-    """The scene of a run of `done` steps with the rest of its passage, or with `more` steps of it; None where none is left."""
+    """Scene of a run after `done` steps with the rest of its passage, or with `more` steps; None at its end."""
     whole = uncut(scene)
     if total_steps(whole) <= done:
         return None

@@ -1,4 +1,4 @@
-"""Reading TOML that people write."""
+"""Reading of TOML files that people write."""
 
 import re
 import tomllib
@@ -12,8 +12,10 @@ LINE = re.compile(r"\(at line (\d+), ")
 
 
 def read(path, what):
-    """The nested dictionary of a TOML file; what: "scene", as sentences name it. Raises SceneError: it cannot be read, or is no
-    TOML; of a decimal comma it says so."""
+    """Nested dictionary of a TOML file; what: "scene", for messages.
+
+    Raises SceneError if it cannot be read or is no TOML; the message points out a decimal comma.
+    """
     try:
         text = files.text(path)
         return tomllib.loads(text)
@@ -26,8 +28,9 @@ def read(path, what):
 
 
 def check_brackets(path, data, one=(), several=()):
-    """Refuse [NAME] where [[NAME]] is meant, and the other way round. one, several: names of tables that stand once, and of
-    those that may stand several times. Raises SceneError."""
+    """Refuse [NAME] in place of [[NAME]], and vice versa. one, several: names of single tables and of repeated tables. Raises
+    SceneError.
+    """
     for names, required, other in ((one, "[{}]", "[[{}]]"), (several, "[[{}]]", "[{}]")):
         for name in names:
             found = data.get(name)

@@ -1,4 +1,4 @@
-"""Values of a scene that are text with a unit, as numbers in the declared units, wherever a scene or a change is made."""
+"""Conversion of texts with a unit to numbers in the declared units, wherever a scene or a change is made."""
 
 import dataclasses
 
@@ -13,8 +13,9 @@ DECLARED = {f"{section}.{key}": kind for section, cls in keys.CLASSES.items() fo
 
 
 def in_units(value, key=""):
-    """The value of a full key (a table, a list of features, a single value; "": all of a scene) with numbers in place of text
-    with a unit. Raises SceneError for a unit of something else."""
+    """Value of a full key (a table, a list of features, a single value; "": a whole scene) with numbers in place of texts with
+    a unit. Raises SceneError for a wrong unit.
+    """
     if isinstance(value, dict) and key.count(".") < 2:
         return {name: in_units(one, f"{key}.{name}" if key else name) for name, one in value.items()}
     if isinstance(value, (list, tuple)) and key == "feature":
@@ -24,7 +25,7 @@ def in_units(value, key=""):
 
 
 def column_in_units(scene, key, values):
-    """Values that a sweep gives to a full key of a scene, as a list or what else it may be. Raises SceneError."""
+    """Values of a sweep for a full key of a scene, converted if they are a list. Raises SceneError."""
     if key == "contact.load":
         kind = dataclasses.replace(kinds(Contact)["load"], unit=scene.load_unit)
     else:
@@ -33,7 +34,7 @@ def column_in_units(scene, key, values):
 
 
 def _without_number(key):
-    """feature.height of feature.0.height."""
+    """Key without the number of the feature: feature.height for feature.0.height."""
     section, _, rest = key.partition(".")
     number, _, own = rest.partition(".")
     return f"feature.{own}" if section == "feature" and number.isdecimal() else key

@@ -1,4 +1,4 @@
-"""Room of a zoom window round the features of a scene."""
+"""Space for the zoom window around the features of a scene."""
 
 import math
 
@@ -10,7 +10,9 @@ BESIDE, CELLS = 0.05, 5  # a, and cells of the grid, at least, between the featu
 
 
 def check(scene):
-    """Refuse a scene whose features leave no room for its window, or a window that does not hold them. Raises SceneError."""
+    """Refuse a scene whose features leave no space for its window, or a window that does not contain them. Raises
+    SceneError.
+    """
     extents = {axis: extent(scene, axis) for axis in ("xy" if scene.rows else "x")}
     _check_ends(scene, *extents.get("y", (0.0, 0.0)))
     low, high = extents["x"]
@@ -25,7 +27,7 @@ def check(scene):
 
 
 def _check_ends(scene, low, high):
-    """Across, the window ends on the grid."""
+    """Refuse a window whose sides along y are not on nodes of the grid."""
     if not math.isfinite(high - low):
         raise SceneError(f"{_zoom(scene)} needs features that end in y, or a line contact in which nothing varies along y")
     s, grid = Scales.of(scene), scene.grid
@@ -37,7 +39,7 @@ def _check_ends(scene, low, high):
 
 
 def extent(scene, axis):
-    """From where to where (a) the features of the surface that a window follows reach along an axis."""
+    """Extent (low, high), in a, of the features on the surface that a window follows, along an axis."""
     a = Scales.of(scene).a
     sides = [(getattr(f, axis), f.reach if axis == "x" else math.inf if f.transverse else f.reach_y)
              for f in scene.reference.features]

@@ -1,6 +1,5 @@
-"""Result stores: a zarr group per run that xarray opens, written step by step, and what keeps it readable after a crash.
+"""Result stores: a zarr group per run that xarray opens, written step by step and readable after a crash.
 
 `store` writes, `reader` reads, `layout` declares the arrays, `checkpoint` holds states to resume from, `integrity` finds
-damage. `load_scene` finds a scene by name, file or store.
-May import: disk, values, laws, scene, heat, march.
+damage. `load_scene` finds a scene by name, file or store. May import: disk, values, laws, scene, heat, march.
 """

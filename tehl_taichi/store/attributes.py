@@ -1,4 +1,4 @@
-"""Checks of the attributes of a store: tables that were edited inside are refused before they are used."""
+"""Check the attributes of a store: refuse edited tables before they are used."""
 
 import json
 
@@ -23,8 +23,9 @@ STEADY = ("h_c_m", "h_min_m", "p_max_Pa", "error", "unknown")
 
 
 def wrong(attrs, whole):
-    """Description of a store attribute that this program did not write in this form, or "". whole: of this version, so that
-    nothing may be missing."""
+    """Description of an attribute that no tehl writes in this form, or "". whole: the store is of this version, so no attribute
+    may be missing.
+    """
     for name in LISTS:
         found = _parsed(attrs.get(name, "[]"))
         if isinstance(found, list) and (odd := [one for one in found if not isinstance(one, str)]):
@@ -37,7 +38,7 @@ def wrong(attrs, whole):
 
 
 def text(attrs, name, default="unknown"):
-    """An attribute that is text; `default` where it is missing or something else."""
+    """Text of an attribute; `default` if it is missing or no text."""
     found = attrs.get(name)
     return found if isinstance(found, str) else default
 
@@ -58,7 +59,7 @@ def _missing(summary):
 
 
 def _wrong_numbers(table, above=""):
-    """The first entry of a (nested) table that is of another kind, in words, or ""."""
+    """First entry of a (nested) table with a wrong type, as text, or ""."""
     for name, value in table.items():
         kind = _kind(name, above)
         if kind and not _is(value, kind):
@@ -69,7 +70,7 @@ def _wrong_numbers(table, above=""):
 
 
 def _kind(name, above):
-    """The kind of an entry; None: any kind, as for entries of later versions."""
+    """Expected type of an entry; None: any type, as for entries of later versions."""
     if above.endswith(("unknown.", "unknown_codes.", "error.")):
         return float if above.endswith("error.") else str
     if "error_parts." in above:

@@ -1,4 +1,4 @@
-"""The states that a run can continue from, one .npz each (whose members carry checksums), named by the entries before it."""
+"""Checkpoints: one .npz file each (with checksums), named by the number of entries before it."""
 
 import zipfile
 import zlib
@@ -12,21 +12,23 @@ NEEDED = {"step", "P", "H0"}
 
 
 def write(folder, number, state):
-    """Store the state behind entry `number`."""
+    """Write the state after entry `number`."""
     with files.aside(folder / f"{number}.npz") as temporary, open(temporary, "xb") as file:
         np.savez(file, **{key: value for key, value in state.items() if value is not None})
 
 
 def forget(folder, number):
-    """Remove all but that of entry `number`."""
+    """Remove all checkpoints but the one of entry `number`."""
     for other in _numbers(folder):
         if other != number:
             (folder / f"{other}.npz").unlink(missing_ok=True)
 
 
 def last(store, folder, steps, shape):
-    """(entries before it, state) of the last checkpoint within the first `steps` entries; shape: of its pressure.
-    Raises StoreError."""
+    """Load the last checkpoint within the first `steps` entries. Returns (entries before it, state).
+
+    shape: of its pressure. Raises StoreError.
+    """
     number = max((n for n in _numbers(folder) if n <= steps), default=None)
     if number is None:
         raise StoreError(f"{store} holds no checkpoint, so it cannot be resumed; `tehl run {store} --out NEW` repeats the run")

@@ -1,6 +1,6 @@
-"""One chunk of an array: a file in the codecs that the array declares, bytes and zstd with a checksum; and whole arrays.
+"""Chunk files of arrays, compressed as the array declares (bytes and zstd with a checksum), and whole arrays.
 
-What a file declares is compared with what its array holds before memory is requested: a few bytes can declare terabytes.
+The declared size of a file is compared with its array before memory is allocated: a few bytes can declare terabytes.
 """
 
 import math
@@ -40,7 +40,7 @@ def read(path, dtype, count):
 
 
 def declared(frame):
-    """Bytes that a frame of zstd declares, None where it does not say."""
+    """Number of bytes that a zstd frame declares, None if it declares none."""
     if frame[:4] != MAGIC or len(frame) < 6:
         return None
     kind, alone = frame[4] >> 6, frame[4] >> 5 & 1
@@ -49,7 +49,7 @@ def declared(frame):
 
 
 def packed(values, dtype):
-    """The content of such a file. To write it through the library costs 5 ms, times 24 arrays a step."""
+    """Compressed content of a chunk file. Zarr itself needs 5 ms for it, times 24 arrays per step."""
     return zstd.compress(np.ascontiguousarray(values, dtype), LEVEL, True)
 
 
@@ -66,8 +66,9 @@ def read_whole(folder):
 
 
 def check(folder):
-    """Refuse an array whose files declare more than it holds, or whose values find no room. Raises StoreError, OSError,
-    ValueError, KeyError, TypeError."""
+    """Refuse an array whose files declare more than its size, or that does not fit in memory. Raises StoreError, OSError,
+    ValueError, KeyError, TypeError.
+    """
     array = files.json_of(folder / ROOT)
     chunk, kind = array["chunk_grid"]["configuration"]["chunk_shape"], array["data_type"]
     if {codec["name"] for codec in array["codecs"]} - CODECS:

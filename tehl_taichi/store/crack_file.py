@@ -1,4 +1,4 @@
-"""The answer of `tehl crack` kept beside the store of its run, for the report: STORE with .crack.json."""
+"""Result of `tehl crack`, kept beside the store of its run for the report: STORE with .crack.json."""
 
 import json
 
@@ -12,19 +12,20 @@ DEPTHS = 60  # of the section that is kept
 
 
 def place(store):
-    """Path of the crack result of the run in the store at this path."""
+    """Path of the crack result of a store."""
     path = store.absolute()
     return path.with_name(f"{path.stem if path.suffix == '.zarr' else path.name}.crack.json")
 
 
 def check(store):
-    """Check that the crack result of the run in the store at this path can be written. Raises StoreError."""
+    """Check that the crack result of a store can be written. Raises StoreError."""
     user_files.check(place(store), force=True)
 
 
 def keep(result, store):
-    """Write a :class:`tehl_taichi.crack.analysis.CrackResult` beside the store it is of, in place of an earlier one; returns
-    the path. Raises StoreError."""
+    """Write a :class:`tehl_taichi.crack.analysis.CrackResult` beside its store; replaces an earlier one. Returns the path.
+    Raises StoreError.
+    """
     path = place(store.path)
     content = {"run": store.attrs.get("date"), "summary": result.summary, "drawn": _drawn(result)}
     user_files.text(path, json.dumps({"program": user_files.PROGRAM, **plain(content)}), force=True)
@@ -32,7 +33,7 @@ def keep(result, store):
 
 
 def kept(store):
-    """{"summary", "drawn"} of the stored crack result of this run, or None. Raises StoreError where it is damaged."""
+    """{"summary", "drawn"} of the stored crack result of a run, or None. Raises StoreError if it is damaged."""
     path = place(store.path)
     if not path.is_file():
         return None
@@ -44,7 +45,7 @@ def kept(store):
 
 
 def _drawn(result):
-    """Data of the figures: m, Pa; the tension of the section on even depths, every line as rows (x', depth)."""
+    """Data of the figures (m, Pa): tension of the section at even depths, every line as rows (x', depth)."""
     plane, lines = result.plane, [line for side in result.sides.values() for line in (side.trajectory, side.path.points)]
     even = np.linspace(0.0, min(1.3 * max([40e-6, *(line.imag.max() for line in lines)]), plane.depths[-1]), DEPTHS)
     wide = max([plane.reach, *(np.abs(side.path.points.real).max() for side in result.sides.values())])

@@ -1,4 +1,4 @@
-"""Check that a folder is a whole store of this program; a sentence on what is wrong with it."""
+"""Check that a folder is a complete store; describe the damage."""
 
 import contextlib
 import json
@@ -26,7 +26,7 @@ OURS = {ROOT, f"{ROOT}.tmp", CHECKPOINTS, LOCK}  # .tmp: to version 0.8
 
 
 def is_store(path):
-    """Whether a store of this program, whole or damaged, is at `path`."""
+    """Whether a store, complete or damaged, is at `path`."""
     try:
         return {"scene", "steps"} <= files.json_of(Path(path) / ROOT)["attributes"].keys()
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
@@ -34,14 +34,15 @@ def is_store(path):
 
 
 def strangers(path):
-    """Names in the folder of a store that are no part of it."""
+    """Names in the folder of a store that do not belong to it."""
     return sorted(child.name for child in path.iterdir() if child.name not in OURS and not TEMPORARY.fullmatch(child.name)
                   and (child.is_symlink() or not _of_array(child)))
 
 
 def _of_array(folder):
-    """Whether it is that of an array, also of one that a killed process had only begun: zarr writes its metadata first, under
-    another name until they are whole."""
+    """Whether a folder is that of an array, also of one that a killed process has begun: zarr first writes the metadata under
+    another name.
+    """
     if (folder / ROOT).is_file():
         return True
     return folder.is_dir() and all(part.name.endswith(".partial") for part in folder.iterdir())
@@ -69,7 +70,7 @@ def root_of(path):
 
 
 def scene_of(path, attrs):
-    """The scene that a store was run with. Raises StoreError."""
+    """Scene of a store. Raises StoreError."""
     try:
         data = _scene_data(attrs["scene"])
         if attrs.get("format", 1) == 1 and data["time"]["steps"] == 0:  # meant all in version 0.1
@@ -83,7 +84,7 @@ def scene_of(path, attrs):
 
 
 def _scene_data(text):
-    """The nested dictionary of a scene as stores keep it. Raises ValueError."""
+    """Nested dictionary of a scene as stores keep it. Raises ValueError."""
     try:
         data = json.loads(text)
     except (TypeError, ValueError):
@@ -97,7 +98,7 @@ def _scene_data(text):
 
 
 def lacking(text):
-    """Name of a law, criterion or shape of a scene (as JSON) that is not installed here, or ""."""
+    """Description of a law, criterion or shape of a scene (as JSON) that is not installed here, or ""."""
     try:
         data = json.loads(text)
         chosen = {**{key: (_entry(data, key), names) for key, names in CHOICES.items()},
@@ -119,8 +120,9 @@ def _entry(data, key):
 
 
 def check(path, attrs, arrays, scene, needed):
-    """Refuse attributes and arrays that do not belong together. needed: {name: dimensions behind the time} of
-    the arrays of every entry."""
+    """Refuse attributes and arrays that do not belong together. needed: {name: dimensions after time} of the arrays of every
+    entry.
+    """
     steps = attrs.get("steps")
     if not isinstance(steps, int) or isinstance(steps, bool) or steps < 1:
         raise damaged(path, f"'steps', the number of its entries, is {steps!r}")
@@ -146,7 +148,7 @@ def _shape(metadata):
 
 
 def attribute(path, attrs, name):
-    """A table (as JSON) among the attributes that resuming needs. Raises StoreError."""
+    """JSON table of an attribute that resuming needs. Raises StoreError."""
     value = optional(attrs, name, {})
     if not value and attrs.get(name) != "{}":
         raise damaged(path, f"its attribute {name!r} is missing or unreadable")
@@ -154,7 +156,7 @@ def attribute(path, attrs, name):
 
 
 def optional(attrs, name, default):
-    """A JSON attribute that only readers miss; `default` where it is missing or no value of that kind."""
+    """JSON value of an attribute that only readers use; `default` if it is missing or of another type."""
     try:
         value = json.loads(attrs[name])
     except (KeyError, TypeError, ValueError, RecursionError):
@@ -163,7 +165,7 @@ def optional(attrs, name, default):
 
 
 def written_by(attrs):
-    """Version that wrote a store, in words, where it is another one, else None."""
+    """Description of the version that wrote a store, None if it is this one."""
     version, layout = attrs.get("version", "unknown"), attrs.get("format", 1)
     if version == __version__ and layout == FORMAT:
         return None
@@ -172,7 +174,9 @@ def written_by(attrs):
 
 @contextlib.contextmanager
 def blamed_on_newer(path, attrs):
-    """What this version cannot read of a store that a newer one wrote is no damage: the StoreError says which to install."""
+    """Context manager: an error while reading a store of a newer version becomes a StoreError that says which version to
+    install.
+    """
     try:
         yield
     except StoreError:
@@ -184,7 +188,7 @@ def blamed_on_newer(path, attrs):
 
 
 def release(version):
-    """The numbers of a version (without what a developer's build adds, nor zeros at the end), () of what is none."""
+    """Numbers of a version (without development suffixes and trailing zeros), () if it is none."""
     found = re.match(r"\d+(\.\d+)*", version if isinstance(version, str) else "")
     numbers = [int(part) for part in found[0].split(".")] if found else []
     while numbers and not numbers[-1]:
@@ -193,11 +197,11 @@ def release(version):
 
 
 def check_version(path, attrs):
-    """Refuse to continue where another version began."""
+    """Refuse to continue a store of another version."""
     if version := written_by(attrs):
         raise StoreError(f"{path} was {version}: it can be read but not resumed; `tehl run {path} --out NEW` repeats the run")
 
 
 def damaged(path, what):
-    """The error that says so."""
+    """The StoreError about damage `what` of a store."""
     return StoreError(f"{path} is damaged: {what}; `tehl run {path} --out NEW` repeats the run")

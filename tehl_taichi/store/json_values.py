@@ -1,4 +1,4 @@
-"""Values as JSON has them."""
+"""Conversion of values to JSON types."""
 
 import math
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 def plain(value):
-    """`value` with lists for tuples and arrays, Python's numbers for numpy's, and null for NaN and the infinities."""
+    """`value` with lists in place of tuples and arrays, Python numbers in place of numpy's, and null for NaN and infinities."""
     if isinstance(value, dict):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):

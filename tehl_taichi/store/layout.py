@@ -13,7 +13,7 @@ OWN = {"step": ("i8", "1", "step number", -1, ""), "time": ("f8", "s", "time sin
 
 
 def lay_out(group, capacity, scene, snapshot):
-    """Arrays with room for `capacity` entries: coordinates, every output of the scene, and the snapshot's own series."""
+    """Create the arrays for `capacity` entries: coordinates, every output of the scene, series of the snapshot."""
     _coordinates(group, snapshot)
     _fields(group, capacity, scene, snapshot)
     _series(group, capacity, scene)
@@ -25,8 +25,7 @@ def metadata(path):
 
 
 def publish(path, attrs, arrays):
-    """Replace the group's metadata: attributes, and every array with its time axis cut at attrs['steps']. Raises
-    OSError."""
+    """Replace the group's metadata: attributes, and every array with its time axis cut at attrs['steps']. Raises OSError."""
     for array in arrays.values():
         if array["dimension_names"][0] == "time":
             array["shape"][0] = attrs["steps"]
@@ -36,7 +35,7 @@ def publish(path, attrs, arrays):
 
 
 def array(group, name, shape, chunk, dtype, dims, units, long_name, fill, between="/", **attrs):
-    """A new array of the group; between: the numbers of a chunk, in the name of its file."""
+    """Create an array in the group; between: separator of the numbers of a chunk in its file name."""
     return group.create_array(name, shape=shape, chunks=chunk, dtype=dtype, dimension_names=dims, fill_value=fill,
                               compressors=chunks.codecs(), chunk_key_encoding={"name": "default", "separator": between},
                               attributes={"units": units, "long_name": long_name, **attrs})

@@ -1,4 +1,4 @@
-"""A scene by whatever names it, on the command line and in Python: `tehl_taichi.scene` is this. Importing it costs nothing."""
+"""Load a scene by name, file or store, for the command line and Python (`tehl_taichi.scene`). Importing this is cheap."""
 
 import os
 from pathlib import Path
@@ -10,13 +10,14 @@ from tehl_taichi.values.file_ending import ending
 
 
 def find(name: str | os.PathLike | Scene = "gear") -> Scene:
-    """As :func:`tehl_taichi.scene`."""
+    """Load a scene: see :func:`tehl_taichi.scene`."""
     return find_changed(name, {})
 
 
 def find_changed(name, changes):
-    """The scene by its name with changes {key: value}, which count as if they stood in its file: one that is refused by itself
-    may need them. Raises SceneError."""
+    """Load a scene with changes {key: value}, applied before its checks: a file that is invalid alone may need them. Raises
+    SceneError.
+    """
     from tehl_taichi.scene import scene_file
 
     if not isinstance(name, (str, os.PathLike, Scene)):
@@ -36,7 +37,7 @@ def _is_store(path):
 
 
 def _stored(path):
-    """Scene of the store at `path`, None where there is none. Raises StoreError for a damaged one."""
+    """Scene of the store at `path`, None if no store is there. Raises StoreError for a damaged one."""
     from tehl_taichi.store import integrity
 
     return integrity.scene_of(path, integrity.root_of(path)[0]) if _is_store(path) else None

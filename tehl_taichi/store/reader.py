@@ -1,4 +1,4 @@
-"""Reading a store: its scene, series, fields, maps and summary; nothing here writes but the undoing of half a replacement."""
+"""Reader of a store: scene, series, fields, maps and summary. It writes nothing, except to undo half a replacement."""
 
 import math
 from functools import cached_property
@@ -18,7 +18,7 @@ from tehl_taichi.values.coded_warning import of_lists
 
 
 class Reader:
-    """One run on disk, to read; entry 0 is the steady start."""
+    """One stored run, read only; entry 0 is the steady start."""
 
     series: dict[str, np.ndarray]
     lacks: str
@@ -36,8 +36,10 @@ class Reader:
 
     @classmethod
     def open(cls, path, stand_in=False):
-        """Existing store, to read. stand_in: also one whose law is not installed here (`lacks` says which), to show and plot.
-        Raises StoreError if `path` is none, or a damaged one."""
+        """Open an existing store for reading. Raises StoreError if `path` is no store or a damaged one.
+
+        stand_in: also open a store whose law is not installed here (`lacks` says which), to show and plot it.
+        """
         return cls._opened(Path(path), None, stand_in)
 
     @classmethod
@@ -61,17 +63,17 @@ class Reader:
 
     @property
     def writer(self):
-        """Description of the process that writes to it now, or None."""
+        """Description of the process that is writing to the store, or None."""
         return holder(self.path)
 
     @property
     def other_version(self):
-        """Which version wrote it, in words, where that is not this one, else None."""
+        """Description of the version that wrote the store, None if it is this one."""
         return integrity.written_by(self.attrs)
 
     @property
     def cut(self):
-        """Position (a) where its passage was cut inside the contact, or None."""
+        """Position (a) at which the passage is cut inside the contact, or None."""
         return cut_at(self.scene)
 
     @property
@@ -81,23 +83,22 @@ class Reader:
 
     @property
     def summary(self):
-        """The summary of a finished run, or {}."""
+        """Summary of a finished run, or {}."""
         found = integrity.optional(self.attrs, "summary", {})
         return {**found, "store": str(self.path)} if found else {}
 
     @property
     def warnings(self):
-        """Warnings, a :class:`tehl_taichi.values.coded_warning.CodedWarning` each: of the run where it is finished,
-        else of its scene."""
+        """Each :class:`tehl_taichi.values.coded_warning.CodedWarning` of the run if it is finished, else of its scene."""
         names = "warnings", "warning_codes", "warning_data"
         return of_lists(*(integrity.optional(self.attrs, name, []) for name in names))
 
     def needed(self, name):
-        """The table among the attributes of that name, which resuming needs. Raises StoreError."""
+        """Table of an attribute that resuming needs. Raises StoreError."""
         return integrity.attribute(self.path, self.attrs, name)
 
     def known(self, name):
-        """The table among the attributes of that name, {} in stores of versions that had none."""
+        """Table of an attribute, {} in stores of versions that have none."""
         return integrity.optional(self.attrs, name, {})
 
     @cached_property
@@ -113,15 +114,15 @@ class Reader:
         return self.series["time"][: self.steps]
 
     def scalar(self, name):
-        """Values of one scalar series, one per stored entry (with output.every: see `cell_methods`)."""
+        """Values of a scalar series, one per stored entry (with output.every: see `cell_methods`)."""
         return self.series[name][: self.steps]
 
     def feature_x(self, n):
-        """Centre of the first feature (m) at entry n."""
+        """Position of the first feature's centre (m) at entry n."""
         return float(self.series["feature_x"][n])
 
     def displacement(self, surface):
-        """How far surface "a" or "b" has moved since X = 0 (m), one number per stored entry; nan without a passage."""
+        """Displacement (m) of surface "a" or "b" since X = 0, one number per stored entry; nan without a passage."""
         name = f"displacement_{surface}_m"
         if name in self.series:
             return self.scalar(name)
@@ -129,22 +130,22 @@ class Reader:
         return pace * self.scalar("feature_x")
 
     def fields(self, n, names=None):
-        """{name: (nx+1, ny+1) array} of entry n, by default of every field that is stored."""
+        """{name: (nx+1, ny+1) array} of entry n; names: default all stored fields."""
         return {name: self._values(name, n) for name in (self.stored if names is None else names)}
 
     def _values(self, name, n):
-        """One chunk, read as it was written: a tenth of the time of the general way, which a fatigue search feels."""
+        """Values of one chunk, read directly: ten times faster than through zarr, which matters in a fatigue search."""
         shape = self.metadata[name]["shape"][1:]
         return chunks.read(self._file(name, n), "<" + self.stored[name], math.prod(shape)).reshape(shape)
 
     def _file(self, name, n):
-        """Path of entry n of a field; before layout 3 each entry is in a folder of its own."""
+        """File of entry n of a field; before layout 3 each entry is in its own folder."""
         array = self.metadata[name]
         between = array["chunk_key_encoding"].get("configuration", {}).get("separator", "/")
         return self.path / name / between.join(["c", str(n)] + ["0"] * (len(array["shape"]) - 1))
 
     def _read_series(self, name):
-        """A scalar series with the room behind its last entry."""
+        """Scalar series, with free space after its last entry."""
         file, whole = self.path / name / "c" / "0", self.metadata[name]["chunk_grid"]["configuration"]["chunk_shape"][0]
         dtype, old = "<i8" if name == "step" else "<f8", self.attrs.get("format", 1) == 1
         values = self._whole(name) if old else chunks.read(file, dtype, whole)
@@ -159,7 +160,7 @@ class Reader:
 
     @property
     def run_in(self):
-        """What run-in left so far (:class:`tehl_taichi.plastic.run_in.RunInState`); None of a scene without."""
+        """State of the run-in so far (:class:`tehl_taichi.plastic.run_in.RunInState`); None without run-in."""
         if not self.scene.runs_in:
             return None
         from tehl_taichi.store import run_in_file
@@ -168,16 +169,16 @@ class Reader:
 
     @property
     def residual_fields(self):
-        """{surface: :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`} of its passage."""
+        """{surface: :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`} of the passage."""
         found = self.run_in
         return found.residual_fields if found else {}
 
     @property
     def surface_changes(self):
-        """Each :class:`tehl_taichi.plastic.surface_change.SurfaceChange` that its passage saw."""
+        """Each :class:`tehl_taichi.plastic.surface_change.SurfaceChange` of the passage."""
         found = self.run_in
         return found.changes if found else ()
 
     def map(self, name):
-        """One of the maps that :meth:`finish` stored, or None."""
+        """A map that :meth:`finish` stored, or None."""
         return self._whole(name) if name in self.metadata else None

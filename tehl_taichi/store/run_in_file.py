@@ -1,4 +1,4 @@
-"""Run-in between the passages of a run: the start of all of them, and what they left so far, beside the checkpoints."""
+"""Files of a run-in between its passages: the common start of all passages and the result so far, beside the checkpoints."""
 
 import json
 import zipfile
@@ -19,7 +19,9 @@ NUMBERS = "passages", "rounds", "part", "done", "contained", "unsettled", "recor
 
 
 def start_of(store, state):
-    """The state of the steady start from which every passage begins: `state` where the store is there, else as it was kept."""
+    """State of the steady start from which every passage begins: `state` while the store is at that entry, else the kept
+    one.
+    """
     if int(state["step"]) == 0:
         checkpoint.write(store.path / CHECKPOINTS, START, state)
     return _arrays(store.path, START)
@@ -33,8 +35,9 @@ def write(path, state):
 
 
 def read(path, needed=False):
-    """The RunInState in the store at `path`; that of a first passage where none is kept, unless it is needed. Raises
-    StoreError."""
+    """Read the RunInState of the store at `path`; without one, the state before the first passage, unless `needed`. Raises
+    StoreError.
+    """
     if not needed and not (path / CHECKPOINTS / f"{LEFT}.npz").is_file():
         return RunInState()
     found = _arrays(path, LEFT)

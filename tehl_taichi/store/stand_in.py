@@ -1,5 +1,4 @@
-"""The scene of a store whose law is not installed here, with a law of the package in its place: stored results can be shown and
-plotted, nothing can be computed with it."""
+"""Scene of a store whose law is not installed, with a law of the package in its place: results can be shown, not computed."""
 
 import json
 
@@ -15,8 +14,9 @@ REPLACED = {"rheology.law": Rheology, "oil.viscosity": Oil, "oil.density": Oil, 
 
 
 def scene_of(path, attrs):
-    """(scene, sentence on what is missing) of a store; "" where nothing is. Raises StoreError where it cannot be read, also
-    where a shape or a hardening is missing, which figures need."""
+    """(scene, description of what is missing or "") of a store. Raises StoreError if it cannot be read, or if a shape or
+    hardening law that figures need is missing.
+    """
     try:
         return integrity.scene_of(path, attrs), ""
     except StoreError:
@@ -30,7 +30,7 @@ def scene_of(path, attrs):
 
 
 def _with_replaced(path, attrs):
-    """The scene with the defaults of its sections in place of every choice that is missing; None where it cannot be read."""
+    """Scene with the defaults of its sections in place of every missing choice; None if it cannot be read."""
     data = json.loads(attrs["scene"])
     for _ in REPLACED:  # several may be missing
         key = integrity.lacking(json.dumps(data)).partition(" ")[0]
@@ -44,7 +44,7 @@ def _with_replaced(path, attrs):
 
 
 def _replace(data, key):
-    """Take the choice and the numbers that only it knows out of its section, in place: defaults are left."""
+    """Remove a choice and the numbers that belong to it from its section, in place; defaults apply."""
     section, _, name = key.partition(".")
     known = kinds(REPLACED[key])
     data[section] = {one: value for one, value in data[section].items() if one in known and one != name}

@@ -1,10 +1,10 @@
-"""The result store: one zarr v3 group that xarray opens as it is, written step by step.
+"""Result store: one zarr v3 group that xarray opens, written step by step.
 
-Arrays are laid out for the whole run at once; what a reader sees is the consolidated metadata in the group's own
-`zarr.json`, whose shapes end at the last complete step that was shown. That one file is replaced atomically after all chunks of
-these steps and a checkpoint are written, so steps become visible as a whole, and a killed run leaves a store that opens.
-The store itself appears with its first entry (:mod:`tehl_taichi.store.store_draft`) and has one writer at a time
-(:mod:`tehl_taichi.disk.locks`); every chunk and checkpoint carries a checksum.
+The arrays are created for the whole run at once. Readers see the consolidated metadata in the group's own `zarr.json`, whose
+shapes end at the last complete step that was published. This file is replaced atomically after all chunks of these steps and a
+checkpoint are written. So steps become visible as a whole, and a killed run leaves a store that opens. The store itself appears
+with its first entry (:mod:`tehl_taichi.store.store_draft`) and has one writer at a time (:mod:`tehl_taichi.disk.locks`); every
+chunk and checkpoint has a checksum.
 """
 
 import contextlib
@@ -31,7 +31,7 @@ from tehl_taichi.values.coded_warning import texts
 
 
 class Store(LockedFolder, Reader):
-    """One run on disk: :meth:`create` and :meth:`write` give one that may be written, :meth:`open` one to read.
+    """One run on disk. :meth:`create` and :meth:`write` return one for writing, :meth:`open` one for reading.
 
     A writer holds the lock of its folder until :meth:`close` (or the end of a `with`).
     """
@@ -40,7 +40,7 @@ class Store(LockedFolder, Reader):
 
     @classmethod
     def create(cls, path, scene, snapshot, capacity, attrs=None):
-        """New store on the grid of `snapshot`, which becomes its first entry; room for `capacity` entries.
+        """Create a store on the grid of `snapshot`, its first entry, for up to `capacity` entries.
 
         path: a :class:`StoreDraft`, or a path that is reserved now. Raises StoreError if it exists or cannot be written.
         """
@@ -74,8 +74,9 @@ class Store(LockedFolder, Reader):
 
     @classmethod
     def write(cls, path):
-        """Existing store, to continue with. Raises StoreError as :meth:`open`, or where another version wrote it; Busy where
-        another process writes."""
+        """Open an existing store for writing. Raises StoreError as :meth:`open`, or if another version wrote it; Busy if
+        another process writes.
+        """
         path = Path(path)
         cls.open(path)  # nothing is locked that is no store
         return locked_folder(path, lambda lock: cls._to_resume(path, lock))
@@ -87,20 +88,21 @@ class Store(LockedFolder, Reader):
         return store
 
     def append(self, snapshot, state=None, shown=True):
-        """Write one snapshot, and its `state` as the checkpoint to continue from, then make it visible; shown = False: not yet,
-        unless it has a state. Raises Interrupted where the disk does not take it: what was shown before stays."""
+        """Write a snapshot, and `state` as a checkpoint, then make them visible (shown=False: only if there is a `state`).
+
+        Raises Interrupted if the disk refuses it; visible entries stay.
+        """
         with self.safely():
             self._append(snapshot, state, shown)
 
     def show(self):
-        """Make visible what was appended. Raises as :meth:`append`."""
+        """Make the appended entries visible. Raises as :meth:`append`."""
         with self.safely():
             if self.steps > self.attrs["steps"]:
                 self._show()
 
     def rewind(self, state):
-        """Take back every entry after the steady start, from whose `state` the passage begins again. Raises as
-        :meth:`append`."""
+        """Remove every entry after the steady start, and start the passage from its `state`. Raises as :meth:`append`."""
         with self.safely():
             checkpoint.write(self.path / CHECKPOINTS, 1, state)
             self._commit(steps=1)
@@ -127,7 +129,7 @@ class Store(LockedFolder, Reader):
         self._commit(steps=self.steps)
 
     def safely(self):
-        """Context manager for errors of the disk while a passage is written."""
+        """Context manager for disk errors while a passage is written."""
         return _disk_errors(self.path, f"{self.attrs['steps']} entries are stored; then use: tehl resume {self.path}")
 
     def _commit(self, **attrs):
@@ -136,8 +138,9 @@ class Store(LockedFolder, Reader):
         self.attrs, self.steps = attrs, attrs["steps"]
 
     def go_back(self):
-        """The state of the last checkpoint, for :func:`tehl_taichi.march.passage.march`. Later entries are removed; the march
-        computes them again with equal numbers. Raises StoreError where there is none."""
+        """Load the last checkpoint for :func:`tehl_taichi.march.passage.march`, and remove later entries (the march computes
+        equal ones). Raises StoreError without a checkpoint.
+        """
         shape = self.scene.rows + 1, self.scene.grid.nx + 1
         number, state = checkpoint.last(self.path, self.path / CHECKPOINTS, self.steps, shape)
         if int(state["step"]) != self.series["step"][number - 1]:
@@ -148,7 +151,7 @@ class Store(LockedFolder, Reader):
         return state
 
     def extend(self, scene):
-        """Continue behind the end of a finished run, with a scene that differs in that end only; its results are taken back."""
+        """Extend a finished run: `scene` differs only in its end; the results are removed."""
         for name in integrity.optional(self.attrs, "results", []):
             self.metadata.pop(name, None)
         self.scene = scene
@@ -175,7 +178,7 @@ class Store(LockedFolder, Reader):
 
 @contextlib.contextmanager
 def _disk_errors(path, what_is_left, kind=Interrupted):
-    """Context manager: errors of the disk (full, read-only, moved away) become a StoreError or Interrupted with a sentence."""
+    """Context manager: disk errors (full, read-only, moved) become a StoreError or Interrupted with a message."""
     try:
         yield
     except OSError as error:

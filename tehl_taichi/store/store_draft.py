@@ -1,4 +1,4 @@
-"""The place of a new store: a :class:`tehl_taichi.disk.drafts.Draft` that replaces nothing but a store."""
+"""Draft of a new store: a :class:`tehl_taichi.disk.drafts.Draft` that replaces only stores."""
 
 import os
 import shutil
@@ -15,11 +15,11 @@ ROOM = 50e6  # bytes
 
 
 class StoreDraft(Draft):
-    """The name `path`, reserved for a store; replace: also where one stands. Raises StoreError, Busy."""
+    """Reserve the name `path` for a store; replace: also if a store exists there. Raises StoreError, Busy."""
 
     @classmethod
     def fresh(cls, folder, name):
-        """The first of NAME-1.zarr, NAME-2.zarr ... in `folder` that no process has or makes."""
+        """Reserve the first free name of NAME-1.zarr, NAME-2.zarr ... in `folder`."""
         number = 1
         while True:
             try:
@@ -42,14 +42,14 @@ class StoreDraft(Draft):
 
 
 class CaseDraft(StoreDraft):
-    """The place of the store of a case, which is a part of its study or flank."""
+    """Draft of the store of a case, a part of its study or flank."""
 
     def check_outside(self):
         pass
 
 
 def removed(path):
-    """Remove the store at `path`. Raises StoreError where there is none, or something else in it; Busy."""
+    """Remove the store at `path`. Raises StoreError if it is no store or contains other files; Busy."""
     remove(path, replaceable(path))
 
 
@@ -69,14 +69,14 @@ def _check_free(path):
 
 
 def check_room(folder):
-    """Raises Error where the disk of an existing folder has no room for a run."""
+    """Raise Error if the disk of an existing folder has no room for a run."""
     free = shutil.disk_usage(folder).free
     if free < ROOM:
         raise Error(f"{folder} has only {free / 1e6:.0f} MB left; a run needs at least {ROOM / 1e6:.0f} MB")
 
 
 def replaceable(path):
-    """The lock of the store at `path`, which may be replaced. Raises StoreError where it may not."""
+    """Lock the store at `path`, which is to be replaced. Raises StoreError if it may not be replaced."""
     if path.is_symlink():
         raise StoreError(f"{path} is a link, and --force replaces only stores; remove the link or choose another --out")
     if not integrity.is_store(path):

@@ -1,4 +1,4 @@
-"""The height maps of a scene inside its store: what a store needs to be shown, resumed and run again without their files."""
+"""Height maps of a scene inside its store: it can be shown, resumed and run again without the map files."""
 
 from tehl_taichi.errors import StoreError, brief
 from tehl_taichi.scene import Scene
@@ -8,7 +8,7 @@ from tehl_taichi.store import chunks
 
 
 def write(group, scene):
-    """Store the heights of the scene's maps, as they were read, each once, under the hash that its feature names."""
+    """Store the heights of the scene's maps as they were read, each once, under the hash that its feature names."""
     for feature in scene.features:
         if feature.kind.measured and _name(feature.sha256) not in group:
             name = _name(feature.sha256)
@@ -20,9 +20,9 @@ def write(group, scene):
 
 
 def scene_of(path, data):
-    """The scene (nested dictionary) of the store at `path`; its maps come from the store, whatever has become of their files.
+    """Scene (nested dictionary) of the store at `path`, with its maps from the store, even if their files have changed.
 
-    Raises StoreError when stored heights are not those of their hash. A store of version 0.1.0 has only the name of the file.
+    Raises StoreError if stored heights do not match their hash. A store of version 0.1.0 has only the name of the file.
     """
     maps = [feature for feature in data["feature"] if SHAPES[feature["shape"]].measured]
     held = [_heights(path, feature["sha256"]) for feature in maps if "sha256" in feature]  # known until the scene has them
@@ -35,7 +35,7 @@ def scene_of(path, data):
 
 
 def _upgrade(feature):
-    """A feature of version 0.1.0, in place: there height was m per unit of a map's file, and every feature had a pixel."""
+    """Convert a feature of version 0.1.0 in place: `height` was m per unit of a map's file, and every feature had a pixel."""
     if SHAPES[feature["shape"]].measured:
         feature.update(unit="m", scale=feature.pop("height"))
     else:

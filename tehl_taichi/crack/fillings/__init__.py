@@ -1,7 +1,7 @@
 """Fillings of a crack, one file each: a new file here is a new choice of `--oil`.
 
-A filling works on a :class:`tehl_taichi.crack.fluid_filled.FluidFilledCrack` crack and gives its
-:class:`tehl_taichi.crack.fluid_filled.FluidState`. May import what `crack` may.
+A filling receives a :class:`tehl_taichi.crack.fluid_filled.FluidFilledCrack` and returns its
+:class:`tehl_taichi.crack.fluid_filled.FluidState`. It may import the same rooms as `crack`.
 """
 
 import sys
@@ -17,7 +17,9 @@ THIN = Fluid(lambda p: 1.0 + 0.0 * p, lambda p: 1.0 + 0.0 * p)
 
 
 def in_tension(filling, mouth):
-    """F_I of a normal crack of length 1 under tension 1, with this pressure of the film at its mouth, after a while."""
+    """Check value: factor F_I of a crack of unit length normal to the surface, under unit tension and this pressure at its
+    mouth, at the end of a long time.
+    """
     faces, pull = CrackFaces(np.array([0, 1j]), 1.0, 12), np.array([1.0, 0.0, 0.0])
     forces = faces.forces(np.tile(pull, (faces.points.size, 3, 1)))
     inside = filling.inside(FluidFilledCrack(faces, forces, np.full(3, mouth), 1.0, np.arange(3) * 1e9, 0.0, THIN, 12))

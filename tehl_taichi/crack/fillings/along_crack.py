@@ -1,7 +1,7 @@
-"""Oil that flows along the crack: lubrication in its own opening, in and out at the mouth, none through the tip.
+"""Oil that flows along the crack: lubrication in its own opening, through the mouth, not through the tip.
 
-Volumes of cells in time, implicitly (first order); between the middles of two cells the resistances of the way add up. Faces
-that touch leave a gap (:data:`tehl_taichi.crack.filling.GAP`). No pressure is below zero: a cavity fills before it has one.
+Implicit first-order volume balance of the cells; the resistances between the middles of two cells add up. Touching faces leave
+a gap (:data:`tehl_taichi.crack.filling.GAP`). No pressure is negative: a cavity fills before its pressure rises.
 """
 
 import numpy as np
@@ -15,7 +15,7 @@ CALM = 20  # rounds after which half of a change of the resistances (of their lo
 
 
 def inside(wet):
-    """Pressures in the crack, one per element of a straight crack."""
+    """State with a pressure per cell; there is one cell per element of a straight crack."""
     return wet.marched(wet.cells, lambda march: _full(march, march.under(0, wet.mouth[0])), _step)
 
 
@@ -25,7 +25,7 @@ def _full(march, found):
 
 
 def _step(march, n, found, content):
-    """Found and contents after the time since the last moment."""
+    """State and oil contents at moment n, from those of the previous one."""
     wet, dt, p = march.wet, march.wet.times[n] - march.wet.times[n - 1], found.pressure
     later, resistance = content, 1.0
     for round_ in range(ROUNDS):
@@ -43,7 +43,9 @@ def _step(march, n, found, content):
 
 
 def _resistance(march, values, p):
-    """(cells,) Pa s/m^2 on the way from the mouth to the first middle of a cell, and from each to the next one."""
+    """Flow resistances (cells,), Pa s/m^2: from the mouth to the middle of the first cell, then between neighbouring
+    middles.
+    """
     faces, fluid, halves = march.wet.faces, march.wet.fluid, 2 * p.size
     half = faces.parts(halves)
     h = np.maximum(faces.opening() @ values, 0.0) + fluid.gap
@@ -52,7 +54,7 @@ def _resistance(march, values, p):
 
 
 def _conductance(resistance):
-    """(cells, cells): T p is what flows out of every cell, m^2/s, against no pressure at the mouth."""
+    """Matrix T (cells, cells): T p is the outflow of every cell (m^2/s) if the pressure at the mouth is zero."""
     g = 1 / resistance
     return np.diag(g + np.append(g[1:], 0.0)) - np.diag(g[1:], 1) - np.diag(g[1:], -1)
 

@@ -1,4 +1,4 @@
-"""Nothing in the crack."""
+"""A dry crack: nothing acts on its faces."""
 
 import numpy as np
 

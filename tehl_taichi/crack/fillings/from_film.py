@@ -1,4 +1,4 @@
-"""The film's pressure above the mouth, everywhere in the crack at once: the most that the oil can do."""
+"""The film's pressure at the mouth acts at once in the whole crack: an upper bound of the effect of the oil."""
 
 from tehl_taichi.crack.filling import Filling
 from tehl_taichi.crack.fillings import in_tension

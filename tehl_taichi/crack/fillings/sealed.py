@@ -1,6 +1,6 @@
-"""A mouth that seals: while it is open, the pressure of the film acts in the whole crack; when it closes, the oil is trapped.
+"""A mouth that seals: while it is open, the film's pressure acts in the whole crack; when it closes, the oil is trapped.
 
-Oil that its own pressure lets out as the faces at the mouth lose touch is gone, down to the pressure that just keeps them shut.
+Trapped oil may part the faces at the mouth by its own pressure. It then escapes until its pressure just keeps them shut.
 """
 
 import numpy as np
@@ -13,17 +13,19 @@ SAME, ROUNDS = 1e-10, 60  # of the pressure; rounds of the oil's compressibility
 
 
 def inside(wet):
-    """One pressure in the whole crack."""
+    """State with one pressure in the whole crack."""
     return wet.marched(1, lambda march: _full(march, march.under(0, wet.mouth[0])), _step)
 
 
 def _full(march, found):
-    """State with the content of a full crack."""
+    """A state, and the oil content of the full crack in it."""
     return found, march.wet.fluid.compression(found.pressure) * (march.volume @ found.values)
 
 
 def _step(march, n, before, content):
-    """One moment: while the mouth is shut, the film stays outside, whatever its pressure, until the faces there part."""
+    """State and content at moment n. The film does not enter a shut mouth, whatever its pressure, until the faces there
+    part.
+    """
     if before.pressed >= 0:
         inside = _shut_in(march, n, content)
         if inside.pressed >= 0:
@@ -36,7 +38,7 @@ def _step(march, n, before, content):
 
 
 def _shut_in(march, n, content):
-    """:class:`tehl_taichi.crack.fluid_filled.MomentState` with this content and nothing let out."""
+    """The :class:`tehl_taichi.crack.fluid_filled.MomentState` with this content, if no oil escapes."""
     if content[0] <= 0:
         return march.under(n, 0.0)
     p = np.array([march.wet.mouth[n]])
@@ -49,8 +51,10 @@ def _shut_in(march, n, content):
 
 
 def _let_out(march, n, high):
-    """At the pressure at which the mouth just touches, between that of the film, with which it is pressed together, and `high`,
-    with which it opens (false position, weighed as in the Illinois method)."""
+    """State at the pressure at which the mouth just touches.
+
+    It lies between the film's pressure, at which the mouth is shut, and `high`, at which it opens (Illinois method).
+    """
     low = march.wet.mouth[n]
     f_low, f_high = march.under(n, low).pressed, march.under(n, high).pressed
     for _ in range(ROUNDS):

@@ -1,6 +1,6 @@
 """The named oils, one file each: a new file here is a new name for `oil.name`.
 
-Numbers that a source gives stand there with that source, no others. May import what `scene.oil` may.
+A file contains the numbers of its source, and no others. May import what `scene.oil` may.
 """
 
 import functools
@@ -17,9 +17,9 @@ STEP = 1e5  # Pa, of alpha: ln(eta) bends over some 1e8 Pa, so the error is some
 
 @dataclass(frozen=True, kw_only=True)
 class NamedOil(Entry):
-    """An oil with a name. numbers: {key of :class:`tehl_taichi.scene.oil.Oil`: value} that are not those of the reference oil.
+    """A named oil. numbers: {key of :class:`tehl_taichi.scene.oil.Oil`: value} that differ from the reference oil.
 
-    known: (p in Pa, Gamma in deg C, viscosity in Pa s, relative error, who knows it) of at least one state.
+    known: (p in Pa, Gamma in deg C, viscosity in Pa s, relative error, source) of at least one state.
     """
 
     known: tuple[tuple[float, float, float, float, str], ...]
@@ -33,20 +33,20 @@ class NamedOil(Entry):
 
     @property
     def oil(self):
-        """The Oil of that name."""
+        """The Oil with this name."""
         return Oil(**{"name": self.name, "source": self.source, **self.numbers})
 
     def viscosity(self, p, Gamma):
-        """Pa s at p (Pa) and Gamma (deg C)."""
+        """Viscosity (Pa s) at p (Pa) and Gamma (deg C)."""
         return math.exp(ln_eta(self.oil, p, Gamma))
 
     def alpha(self, Gamma):
-        """1/Pa, d ln(eta)/dp at p = 0 and Gamma (deg C), by differences of second order from p = 0 on."""
+        """Pressure coefficient d ln(eta)/dp (1/Pa) at p = 0 and Gamma (deg C), by one-sided second-order differences."""
         at = [ln_eta(self.oil, n * STEP, Gamma) for n in range(3)]
         return (4 * at[1] - 3 * at[0] - at[2]) / (2 * STEP)
 
     @property
     def shown_numbers(self):
-        """As lists show it, three digits each: viscosity at 40 and 100 deg C in mPa s, alpha at 40 deg C in 1/GPa, at p = 0."""
+        """Three-digit texts for lists: viscosity at 40 and 100 deg C in mPa s, alpha at 40 deg C in 1/GPa, at p = 0."""
         numbers = self.viscosity(0.0, 40.0) * 1e3, self.viscosity(0.0, 100.0) * 1e3, self.alpha(40.0) * 1e9
         return tuple(f"{float(f'{number:.3g}'):g}" for number in numbers)

@@ -1,7 +1,8 @@
-"""Mineral gear oils of the grades that mineral_oils.py does not have, by a data sheet as such oils have it.
+"""Mineral gear oils of the grades missing in mineral_oils.py, each as a data sheet.
 
-The viscosity at 40 deg C is the grade's midpoint (ISO 3448), that at 100 deg C the one of viscosity index 95 (ASTM D2270:
-VI = 100 (L - nu_40)/(L - H), L and H tabulated over nu_100); 890 kg/m3 at 15 deg C is usual. Alpha is an estimate.
+The viscosity at 40 deg C is the midpoint of the grade (ISO 3448); that at 100 deg C corresponds to viscosity index 95 (ASTM
+D2270: VI = 100 (L - nu_40)/(L - H), L and H tabulated over nu_100). The density is the usual 890 kg/m3 at 15 deg C. Alpha is an
+estimate.
 """
 
 from tehl_taichi.scene import mineral_alpha
@@ -13,7 +14,7 @@ RHO_100 = RHO_40 * 0.9592
 
 
 def _gear_oil(grade, nu_100, L, H):
-    """An entry; nu_100 in mm2/s with L and H of the standard's table at it, interpolated."""
+    """Entry of a gear oil; nu_100 in mm2/s; L, H: interpolated from the standard's table at nu_100."""
     return NamedOil(
         name=f"mineral-vg{grade}", says=f"gear oil, ISO VG {grade}, VI 95",
         source=f"mineral, made of ISO 3448 ({grade} mm2/s at 40 deg C), viscosity index 95 (ASTM D2270: {nu_100:g} mm2/s "

@@ -1,7 +1,7 @@
-"""Mineral oils of a handbook's table: viscosity and its rise with pressure at 30, 60 and 100 deg C.
+"""Mineral oils of a handbook table: viscosity and pressure coefficient at 30, 60 and 100 deg C.
 
-G0, S0, Dz, Cz are fitted to these six numbers (straight lines of ln(log10 eta + 4.2) and of Z over ln(1 + Gamma/135)); the
-table has no density: the ISO VG of a name holds for any from 850 to 880 kg/m3.
+G0, S0, Dz, Cz are fitted to these six numbers (straight lines of ln(log10 eta + 4.2) and of Z over ln(1 + Gamma/135)). The
+table has no density: the ISO VG in the name is right for any density from 850 to 880 kg/m3.
 """
 
 import functools
@@ -16,7 +16,7 @@ STEP = 1e5  # Pa
 
 
 def _mineral(name, says, row, eta, alpha, numbers):
-    """An entry from the viscosities (Pa s) and pressure coefficients (1/Pa) that the table has at 30, 60 and 100 deg C."""
+    """Entry of a mineral oil from its viscosities (Pa s) and pressure coefficients (1/Pa) at 30, 60 and 100 deg C."""
     def rise(Gamma):
         return (entry.viscosity(STEP, Gamma) / entry.viscosity(0.0, Gamma) - 1) / STEP
 

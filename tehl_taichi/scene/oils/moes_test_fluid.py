@@ -1,4 +1,4 @@
-"""The oil of the film formulas."""
+"""Test fluid of the film formulas."""
 
 from tehl_taichi.scene.oils import NamedOil
 

@@ -1,4 +1,4 @@
-"""The oil of the gear: all numbers that a scene has by default."""
+"""Oil of the gear scene: the default numbers of every scene."""
 
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.oils import NamedOil

@@ -1,4 +1,4 @@
-"""The oil of the ridge on a ball."""
+"""Test fluid of the scene of a ridge on a ball."""
 
 import math
 

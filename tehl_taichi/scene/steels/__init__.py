@@ -1,7 +1,6 @@
-"""The steels that have names, one file each: a new file here is a new name for `bodies.a.material`.
+"""Named steels, one file each: a new file here is a new name for `bodies.a.material`.
 
-Numbers that a source gives stand there with that source, no others. May import what `scene.sections` may, but not
-`scene.sections` itself.
+A file contains the numbers of its source, and no others. May import what `scene.sections` may, but not `scene.sections` itself.
 """
 
 from collections.abc import Mapping
@@ -15,7 +14,7 @@ WHERE = "rho c of martensitic gear steels, about 3.8 N/mm2K, in the flash temper
 
 @dataclass(frozen=True, kw_only=True)
 class Steel(Entry):
-    """A steel with a name. numbers: {key of :class:`tehl_taichi.scene.sections.Body`: value}, all of them."""
+    """A named steel. numbers: {key of :class:`tehl_taichi.scene.sections.Body`: value}, all of them."""
 
     numbers: Mapping
     checked: tuple[Checked, ...] = ()

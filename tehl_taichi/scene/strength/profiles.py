@@ -7,7 +7,7 @@ STEPS, DEEPEST = 40, 2.0  # rows, and depth over CHD
 
 
 def case_hardened():
-    """Hardness that falls as a bell curve from the surface to the core and is 550 HV at the case-hardening depth."""
+    """Hardness that falls as a bell curve from surface to core and is 550 HV at the case-hardening depth."""
     depths = [n * DEEPEST * CHD / STEPS for n in range(STEPS + 1)]
     part = (AT_CHD - CORE) / (SURFACE - CORE)
     return {DEPTH: depths, HARDNESS: [CORE + (SURFACE - CORE) * part ** ((z / CHD) ** 2) for z in depths]}

@@ -1,4 +1,4 @@
-"""The tables of strength that the section [fatigue] names: read once, then carried as text by the scene and its stores."""
+"""Strength tables that the section [fatigue] names: read once, then stored as text in the scene and its stores."""
 
 import hashlib
 import os
@@ -14,7 +14,7 @@ ROWS_OF = {f"fatigue.{key}": rows for key, rows in KEYS.items()}
 
 
 def read(fatigue):
-    """Put the contents of its tables into a section [fatigue] that has none yet. Raises SceneError."""
+    """Read the tables of a section [fatigue] that has not read them yet. Raises SceneError."""
     for key, rows in KEYS.items():
         place, known = getattr(fatigue, key), getattr(fatigue, rows)
         if place and not known:
@@ -31,7 +31,9 @@ def text_of(fatigue, surface):
 
 
 def words(fatigue):
-    """'over the depth by the table case.csv, limit by the relation ss2506 (source; spread)', "" without a table."""
+    """Text such as 'over the depth by the table case.csv, limit by the relation ss2506 (source; spread)', "" without a
+    table.
+    """
     texts = [text for text in dict.fromkeys((text_of(fatigue, "a"), text_of(fatigue, "b"))) if text]
     if not texts:
         return ""
@@ -44,13 +46,13 @@ def words(fatigue):
 
 
 def name_of(fatigue, surface):
-    """Name of the table of a body, a file without its folders; "" without one."""
+    """Name of the table of a body (of a file without its folders); "" without one."""
     place = fatigue.table_b if surface == "b" and fatigue.table_rows_b else fatigue.table
     return os.path.basename(place) if text_of(fatigue, surface) else ""
 
 
 def strength_words(fatigue, surface):
-    """Text: source of the strength of a body over its depth; different tables have different texts."""
+    """Text about the strength of a body over its depth; different tables have different texts."""
     if not (text := text_of(fatigue, surface)):
         return "equal at every depth"
     by = f" by {fatigue.relation}" if table.of_text(text).has(HARDNESS) else ""
@@ -72,6 +74,6 @@ def _check(fatigue, text):
 
 
 def with_folder(values, folder):
-    """{key: path} of those tables of a parsed section [fatigue] that are files, their paths starting at `folder`."""
+    """{key: path} of the tables of a parsed section [fatigue] that are files, with paths relative to `folder` resolved."""
     names = {key: values[key] for key in KEYS if isinstance(values.get(key), str) and values[key]}
     return {key: str(folder / name) for key, name in names.items() if name not in (*PROFILES, PLAIN)}

@@ -1,4 +1,4 @@
-"""Strength at a depth of a body: constants of the criterion, residual stress, yield stress."""
+"""Strength of a body at a depth: constants of the criterion, residual stress, yield stress."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,7 +10,9 @@ from tehl_taichi.scene.strength.table import HARDNESS, KAPPA, LIMIT, RESIDUAL, Y
 
 @dataclass(frozen=True)
 class LocalStrength:
-    """kappa and endurance (sigma_eF, Pa) of a criterion at a depth (m); share: the limit at the surface over this one."""
+    """Strength at a depth (m): kappa and endurance (sigma_eF, Pa) of a criterion; share: limit at the surface over the limit
+    here.
+    """
 
     depth: float
     kappa: float
@@ -20,7 +22,7 @@ class LocalStrength:
 
 
 class Strength:
-    """Over the depth of a body: by its table, without one as the section [fatigue] says for every depth.
+    """Strength of a body over its depth: from its table, or from the section [fatigue] for all depths.
 
     fatigue: the section; surface: its :class:`tehl_taichi.scene.moving_surfaces.MovingSurface`.
     """
@@ -41,19 +43,19 @@ class Strength:
         return self._constants(0.0)[1]
 
     def limits(self, depths):
-        """List of sigma_eF (Pa) at depths (m)."""
+        """Limits sigma_eF (Pa) at depths (m), a list."""
         return [self._constants(float(depth))[1] for depth in depths]
 
     def shares(self, depths):
-        """List: by what stresses at depths (m) are multiplied to be compared with the limit at the surface."""
+        """Factors for stresses at depths (m) that make them comparable to the limit at the surface, a list."""
         return [self.surface_limit / limit for limit in self.limits(depths)]
 
     def kappas(self, depths):
-        """List of kappa at depths (m)."""
+        """Values of kappa at depths (m), a list."""
         return [self._constants(float(depth))[0] for depth in depths]
 
     def _constants(self, depth):
-        """(kappa, sigma_eF in Pa)."""
+        """(kappa, sigma_eF in Pa) at a depth (m)."""
         f, table = self.fatigue, self.table
         if table is None:
             return f.kappa, f.endurance
@@ -65,17 +67,17 @@ class Strength:
 
     @property
     def varies_in_residual(self):
-        """Whether residual stress follows from a table."""
+        """Whether a table gives the residual stress."""
         return self.table is not None and (self.table.has(RESIDUAL[0]) or self.table.has(RESIDUAL[1]))
 
     def residual(self, depths):
-        """(along x, along y) at depths (m): arrays from a table, else the constant ones of the scene; Pa."""
+        """Residual stress (along x, along y), Pa, at depths (m): arrays from a table, else the constants of the scene."""
         constant = self.fatigue.residual_xx, self.fatigue.residual_yy
         return tuple(self.table.at(name, depths) if self.table is not None and self.table.has(name) else value
                      for name, value in zip(RESIDUAL, constant))
 
     def yield_stress(self, depth):
-        """Pa: of the table, else of the body."""
+        """Yield stress (Pa) at a depth (m): from the table, else of the body."""
         if self.table is not None and self.table.has(YIELD):
             return float(self.table.at(YIELD, depth))
         return yield_stress.of(self.body)

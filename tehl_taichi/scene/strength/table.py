@@ -1,4 +1,4 @@
-"""A table of strength over depth: a text of numbers in SI units, which a scene and its store carry, and its columns."""
+"""Strength table over depth: numbers in SI units as text, which a scene and its store carry, and its columns."""
 
 import functools
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ COLUMNS = (DEPTH, HARDNESS, LIMIT, KAPPA, YIELD, *RESIDUAL)
 
 @dataclass(frozen=True)
 class StrengthTable:
-    """columns: {name of COLUMNS: numbers, one for each depth}, those that the table has; depths rise."""
+    """Columns of a table: {name of COLUMNS: one number per depth}; depths increase."""
 
     columns: dict
 
@@ -18,21 +18,21 @@ class StrengthTable:
         return all(name in self.columns for name in names)
 
     def at(self, name, depth):
-        """Linear between the depths (m) of the table, constant beyond its ends; a number or an array."""
+        """Value of a column at a depth (m): linear interpolation, constant beyond the ends; a number or an array."""
         import numpy as np
 
         return np.interp(depth, self.columns[DEPTH], self.columns[name])
 
 
 def text_of(columns):
-    """The text of columns {name: numbers}: a line of names, then a line for each depth. Reading it gives equal numbers."""
+    """Text of columns {name: numbers}: a line of names, then one line per depth. Reading it gives equal numbers."""
     lines = [",".join(columns), *(",".join(repr(float(value)) for value in row) for row in zip(*columns.values()))]
     return "\n".join(lines)
 
 
 @functools.lru_cache(64)
 def of_text(text):
-    """The StrengthTable of such a text. Raises ValueError, KeyError where it is none."""
+    """Read a StrengthTable from its text. Raises ValueError, KeyError if it is none."""
     names, *rows = (line.split(",") for line in text.split("\n"))
     numbers = [tuple(map(float, row)) for row in rows]
     if not numbers or names[0] != DEPTH or set(names) - set(COLUMNS) or {len(row) for row in numbers} != {len(names)}:

@@ -1,4 +1,4 @@
-"""Tables of strength over depth that users write: CSV with names and units in the first line."""
+"""Strength tables of users: CSV files with names and units in the first line."""
 
 import csv
 import io
@@ -29,8 +29,9 @@ NEEDED = "depth_mm (or _um, _m) and either hardness_HV or limit_MPa (or _Pa)"
 
 
 def text_of(place, key):
-    """The text (see :mod:`tehl_taichi.scene.strength.table`) of a built-in profile or of a file; key: of the scene that names
-    it. Raises SceneError."""
+    """Text (see :mod:`tehl_taichi.scene.strength.table`) of a built-in profile or a file; key: of the scene, for messages.
+    Raises SceneError.
+    """
     if place in PROFILES:
         return PROFILES[place]
     where = f"{key} = {shown(place)}"
@@ -38,7 +39,7 @@ def text_of(place, key):
 
 
 def check(found):
-    """Refuse numbers of a StrengthTable that no file may have. Raises SceneError."""
+    """Refuse invalid numbers of a StrengthTable. Raises SceneError."""
     declared = {key: kind for key, _, kind in KNOWN.values()}
     for key, values in found.columns.items():
         for value in values:
@@ -62,7 +63,7 @@ def _read(where, path, place):
 
 
 def _rows(where, content):
-    """Lists of words, without empty lines and those that begin with #. Raises SceneError."""
+    """Rows of the file as lists of words, without empty lines and comments (#). Raises SceneError."""
     lines = [line for line in content.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     try:
         mark = column_mark("".join(lines[:1])) or ","
@@ -75,12 +76,12 @@ def _rows(where, content):
 
 
 def _cell(cell, mark):
-    """Text of a cell; a comma is a decimal point where another mark parts the columns."""
+    """Text of a cell; if another mark separates the columns, a comma is a decimal point."""
     return cell.strip() if mark == "," else cell.strip().replace(",", ".")
 
 
 def _columns(where, rows):
-    """{name in SI units: numbers} of rows of words, the names first. Raises SceneError."""
+    """{name in SI units: numbers} of rows of words with the names first. Raises SceneError."""
     names, *lines = rows
     while names and not names[-1]:  # spreadsheets end lines with marks
         names.pop()
@@ -114,7 +115,7 @@ def _check_lengths(where, count, lines):
 
 
 def _number(where, row, n, factor, declared):
-    """A number of a row in SI units. Raises SceneError."""
+    """Number in a row, in SI units. Raises SceneError."""
     text = row[n] if n < len(row) else ""
     try:
         value = float(text) * factor

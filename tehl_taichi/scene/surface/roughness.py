@@ -12,8 +12,9 @@ FARTHEST = 0.5  # of a side: over longer distances too few pairs of points are l
 
 @dataclass(frozen=True)
 class Roughness:
-    """Sa, Sq, Sz (Ra, Rq, Rz of a profile): mean and rms height about the mean, range (of a profile the mean of five sections);
-    skewness; slope: rms; lengths: autocorrelation lengths along x and y, None where the function does not fall so far. m."""
+    """Sa, Sq, Sz (Ra, Rq, Rz of a profile): mean and rms height about the mean, range (of a profile the mean of five sections),
+    m; skewness; slope: rms; lengths: autocorrelation lengths along x and y, m, None if the function does not fall so far.
+    """
 
     Sa: float
     Sq: float
@@ -25,8 +26,9 @@ class Roughness:
 
     @classmethod
     def of(cls, heights, steps):
-        """Roughness of heights (points along y, along x; m), steps (m, along x, along y) apart; a profile has one point along
-        an axis."""
+        """Roughness of heights (points along y, along x; m); steps: distances (m, along x, along y); a profile has one point
+        along an axis.
+        """
         z = heights - heights.mean()
         Sq, line = float(np.sqrt(np.mean(z**2))), min(z.shape) == 1
         slopes = [float(np.mean((np.diff(z, axis=axis) / step) ** 2)) for axis, step in zip((1, 0), steps) if z.shape[axis] > 1]
@@ -54,7 +56,7 @@ def _range(profile):
 
 
 def _length(rows, step):
-    """Distance at which the autocorrelation function of the rows has fallen to FALLS, m; None: nowhere."""
+    """Distance (m) at which the autocorrelation function of the rows has fallen to FALLS; None: nowhere."""
     count = rows.shape[1]
     if count < 3:
         return None

@@ -16,9 +16,9 @@ FINE = 24  # points of a wave that show it
 class Shape(Entry):
     """Base of the shapes; `f` is always a :class:`tehl_taichi.scene.feature.Feature`, lengths are m.
 
-    uses: {key that several shapes share: what it means to this one, "" where its own sentence says it}; keys: frozen
-    dataclass of keys that only this one has; example: keys of a small feature that passes the gear contact on 128 x 32 cells,
-    for suites and tests; drawn: whether height (of both signs) and width alone make one, so that suites draw it at random.
+    uses: {key that several shapes share: its meaning for this one, "" for the general meaning}; keys: frozen dataclass of keys
+    that only this shape has; example: keys of a small feature that passes the gear contact on 128 x 32 cells, for suites and
+    tests; drawn: height (of either sign) and width suffice, so suites draw it at random.
     """
 
     uses: Mapping[str, str]
@@ -30,27 +30,27 @@ class Shape(Entry):
     rough = False  # whether its heights fill its patch, so that it has a roughness; it has `patch` and `finest` then
 
     def height(self, f, x, y):
-        """Height (positive: out of the surface) at x, y from its centre; arrays that broadcast, and so does the result."""
+        """Height (positive: out of the surface) at x, y from its centre (arrays that broadcast)."""
         raise NotImplementedError(f"{self.name} has no height")
 
     def filled(self, f, x, y):
-        """Whether its height there is no measured one; arrays that broadcast, and so does the result."""
+        """Whether the height at x, y (arrays that broadcast) is filled in, not measured."""
         return np.zeros(np.broadcast(x, y).shape, bool)
 
     def reach(self, f):
-        """Distance along x from its centre within which it is not zero."""
+        """Distance along x from the centre within which the height is not zero."""
         return f.width / 2
 
     def reach_y(self, f):
-        """Distance along y; 0 where nothing varies along y."""
+        """Distance along y from the centre within which it is not zero; 0 without variation along y."""
         return 0.0
 
     def transverse(self, f):
-        """True when nothing varies along y."""
+        """True if the height does not vary along y."""
         return False
 
     def symmetric(self, f):
-        """True when the half domain y >= 0 says it all."""
+        """True if the half domain y >= 0 suffices."""
         return self.transverse(f) or f.y == 0
 
     def top(self, f):
@@ -58,31 +58,30 @@ class Shape(Entry):
         return f.height
 
     def sizes(self, f):
-        """({key: length along x}, {key: length along y}) that the cells of a grid must be able to see."""
+        """({key: length along x}, {key: length along y}) that the grid must resolve."""
         return {"width": f.width}, {}
 
     def coarser(self, f, x, y):
-        """What of it a grid sees that needs waves of x, y (m): without those of a sum of many that are shorter; None where
-        nothing of that is left."""
+        """The feature without waves shorter than x, y (m), which a coarser grid does not resolve; None if nothing is left."""
         return f
 
     def tidy(self, f):
-        """Give its own keys the form in which they are checked (they may be of any type yet)."""
+        """Convert its own keys to the types that are checked (they may have any type before)."""
 
     def check(self, f):
-        """Refuse keys that do not fit together. Raises SceneError."""
+        """Refuse keys that contradict each other. Raises SceneError."""
 
     def preview(self, f, scene):
         """Lines printed before a run."""
         return ()
 
     def doubts(self, f, scene):
-        """Sentences about what is doubtful."""
+        """Sentences about doubtful values."""
         return ()
 
 
 def shared_key_meaning(shapes, key, about):
-    """Meaning of a key that shapes share, for the template: who uses it, and what it says to whom."""
+    """Meaning of a key that several shapes share, for the template: per shape."""
     users = {name: shape.uses[key] for name, shape in shapes.items() if key in shape.uses}
     others = [name for name in shapes if name not in users]
     whose = f" (not {others[0]})" if len(others) == 1 else f" ({', '.join(users)})" if others else ""
@@ -90,7 +89,7 @@ def shared_key_meaning(shapes, key, about):
 
 
 def share(where, expected, x, y, **keys):
-    """A number of a shape: its height at x, y (m)."""
+    """Check value of a shape: its height at x, y (m) over its top."""
     def compute():
         from tehl_taichi.scene.feature import Feature  # which is made of all shapes
 

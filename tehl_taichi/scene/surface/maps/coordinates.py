@@ -1,4 +1,4 @@
-"""Coordinates beside heights: a row and a column of places or numbers, as tables have them, and lists of points."""
+"""Coordinates in a file of heights: a row and a column beside a table of heights, and lists of points."""
 
 from dataclasses import dataclass
 
@@ -12,8 +12,9 @@ REGULAR = 0.79  # of the steps in a column of coordinates are one and the same: 
 
 @dataclass(frozen=True)
 class Coordinates:
-    """heights: without their coordinates; x, y: distance of the coordinates along a row and from row to row, in whatever unit
-    they have; None: there are none, or they only count."""
+    """heights: without their coordinates; x, y: distances of the coordinates along a row and from row to row, in their own
+    unit; None without coordinates, or if they are only running numbers.
+    """
 
     heights: np.ndarray
     x: float | None = None
@@ -22,7 +23,9 @@ class Coordinates:
 
 
 def without(values):
-    """The :class:`Coordinates` of a table (rows, columns) of heights, perhaps with coordinates in its first row or column."""
+    """Separate the coordinates from a table (rows, columns) of heights: first row or column, if they are evenly spaced. Returns
+    :class:`Coordinates`.
+    """
     row, column = _along(values), _along(values.T)
     if row and column:  # the corner belongs to neither
         row, column = values[0, 1:], values[1:, 0]
@@ -35,7 +38,7 @@ def without(values):
 
 
 def _along(values):
-    """Whether the first row is one of coordinates: even, and not what the heights below it continue to."""
+    """Whether the first row contains coordinates: evenly spaced, and no continuation of the heights below."""
     if values.ndim != 2 or min(values.shape) < 5:
         return False
     first, second, third = (_even(row[1:]) for row in values[:3])
@@ -48,12 +51,12 @@ def _along(values):
 
 
 def _is_column(values):
-    """Whether the first column, but for its corner, is even: the corner is a number of its own then."""
+    """Whether the first column, without its corner, is evenly spaced; then the corner is a separate number."""
     return _even(values[1:, 0]) is not None
 
 
 def _even(many):
-    """Step of numbers that rise or fall evenly, None where they do not."""
+    """Step of evenly rising or falling numbers, None for others."""
     steps = np.diff(many)
     step = steps.mean() if steps.size > 2 and np.isfinite(steps).all() else 0.0
     return float(step) if step and np.abs(steps - step).max() <= EVEN * abs(step) else None
@@ -65,19 +68,19 @@ def rises(many):
 
 
 def step(many):
-    """Distance of coordinates; None where there are none or they count from 0 or 1."""
+    """Distance of coordinates; None if there are none or if they count from 0 or 1."""
     if many is None or many[0] in (0, 1) and _even(many) == 1:
         return None
     return abs(float((many[-1] - many[0]) / (many.size - 1)))
 
 
 def is_narrow(values):
-    """Whether a table has so few columns (or rows) that it may be such a list."""
+    """Whether a table has so few columns (or rows) that it may be a list of points."""
     return values.ndim == 2 and 2 < min(values.shape) <= LISTED and max(values.shape) > 2 * min(values.shape)
 
 
 def is_list(values):
-    """Whether a table (rows, columns) is a list of points, x and y beside z (in any order, more columns beside them)."""
+    """Whether a table (rows, columns) is a list of points: x and y beside z, in any order, perhaps with further columns."""
     if not is_narrow(values):
         return False
     long = values if values.shape[0] >= values.shape[1] else values.T
@@ -86,13 +89,13 @@ def is_list(values):
 
 
 def _stays(many):
-    """Whether a column of coordinates stays and then goes a step, again and again."""
+    """Whether a column of coordinates is constant over several rows, then makes a step, repeatedly."""
     steps = np.diff(many)
     return bool(np.isfinite(steps).all() and steps.any() and (steps == 0).mean() >= REGULAR)
 
 
 def _cycles(many):
-    """Whether it goes in equal steps and back to its beginning, again and again."""
+    """Whether a column runs in equal steps and returns to its beginning, repeatedly."""
     steps = np.diff(many)
     if not np.isfinite(steps).all() or not (usual := np.median(steps)):
         return False

@@ -1,4 +1,4 @@
-"""Choice of a cutoff with which grid, film equation and steel can carry a measured map."""
+"""Choice of a cutoff for a measured map that is suitable for the grid, the film equation and the steel."""
 
 import bisect
 import math
@@ -16,34 +16,36 @@ FINER = 1.05  # one cutoff that is tried over the next: two digits
 
 
 def middle(heights):
-    """The middle of a large map."""
+    """Middle part of a large map."""
     cut = [max(0, (n - JUDGED) // 2) for n in heights.shape]
     return heights[cut[0]:heights.shape[0] - cut[0], cut[1]:heights.shape[1] - cut[1]]
 
 
 def points_in_a_cell(f, scene):
-    """[along x, along y] of the map; they need not be whole. An axis of one point has no others: there as along the other."""
+    """Map points per cell [along x, along y], not necessarily whole; an axis of one point takes the number of the other."""
     found = [size / step for size, step in zip(Scales.of(scene).cell(scene.grid), f.steps)]
     return [found[axis if count > 1 else 1 - axis] for axis, count in enumerate(f.points)]
 
 
 def pressed(heights, f, scene):
-    """Highest pressure (Pa) of a contact in which such heights of the map are pressed flat: that of the dry contact and theirs.
+    """Highest pressure (Pa) of a contact that presses these heights flat: that of the dry contact plus that of the heights.
 
-    A ground flank under 1.3 GPa had, until it came to the outlet, 4.9 GPa where this says 4.8 (cutoff 25 um) and 4.2 where it
-    says 4.0 (45 um); at the outlet there were peaks of 6.4 and 6.7 that its grid did not resolve.
+    Comparison with a ground flank under 1.3 GPa before it reached the outlet: 4.9 GPa computed, 4.8 estimated (cutoff 25 um);
+    4.2 and 4.0 (45 um). At the outlet, peaks of 6.4 and 6.7 GPa were not resolved by the grid.
     """
     scales = Scales.of(scene)
     return scales.p_H + flattening_pressure.highest(heights, f.steps, scales.E)
 
 
 def yields(heights, f, scene, margin=1.0):
-    """Whether that is more (than so many times) what steel carries, because of the heights: without them it would carry it."""
+    """Whether this pressure exceeds `margin` times the limit of steel because of the heights; without them it must not."""
     return Scales.of(scene).p_H < YIELDS < pressed(heights, f, scene) / margin
 
 
 def helping(f, scene):
-    """The smallest cutoff (m) with which the grid sees the map, its slopes are small and steel carries it; 0: there is none."""
+    """Smallest cutoff (m) with which the grid resolves the map, its slopes are small and steel carries it; 0 if there is
+    none.
+    """
     key = Scales.of(scene), scene.grid
     if key not in f.cutoffs:
         f.cutoffs[key] = _searched(f, scene)
@@ -60,7 +62,7 @@ def _searched(f, scene):
 
 
 def _taken(f, scene, cutoff):
-    """Whether the map with this cutoff (m) is long, flat and low enough."""
+    """Whether the map with this cutoff (m) is resolved, has small slopes and is carried by steel."""
     measured = middle(f.filtered(cutoff))
     return (Measures.of(measured, f.steps).slope <= STEEP and not yields(heights := middle(f.passing(cutoff)), f, scene)
             and missed(heights, *points_in_a_cell(f, scene)) <= SHARE)

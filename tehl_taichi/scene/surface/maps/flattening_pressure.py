@@ -1,5 +1,7 @@
-"""The pressure that presses measured heights flat: a wave of height h and wave number |q| takes E'/4 |q| h on two elastic half
-spaces (Johnson, Contact Mechanics, section 13.2; half of the contact modulus, which is half of E')."""
+"""Pressure that flattens measured heights: a wave of height h and wave number |q| needs E'/4 |q| h on two elastic half-spaces.
+
+Johnson, Contact Mechanics, section 13.2 (half of the contact modulus, which is half of E').
+"""
 
 import numpy as np
 
@@ -10,8 +12,10 @@ SHARE = 0.999  # of the points have less: what is left are spikes of the measure
 
 
 def flattening(heights, steps, E):
-    """Pressure (Pa) over the mean, at the points of `heights` (along y, along x; m) that are not at the rim; points `steps`
-    (m, along x, along y) apart, E: E' in Pa."""
+    """Pressure (Pa, above the mean) that flattens `heights` (along y, along x; m), at points away from the rim.
+
+    steps: distances of points (m, along x, along y); E: E' in Pa.
+    """
     windows = [_window(count) for count in heights.shape]
     faded = levelled(heights, "plane") * np.outer(*windows)
     rows, columns = heights.shape
@@ -21,12 +25,12 @@ def flattening(heights, steps, E):
 
 
 def highest(heights, steps, E):
-    """Pressure below which all but a thousandth of the points stay, Pa."""
+    """Pressure (Pa) that only a thousandth of the points exceed."""
     return float(np.quantile(flattening(heights, steps, E), SHARE))
 
 
 def _window(count):
-    """Window: 1 with half a cosine at both ends."""
+    """Window function: 1 with half a cosine at both ends."""
     places = np.arange(count)
     inside = (np.minimum(places, places[::-1]) + 0.5) / (RIM * count)
     return 0.5 * (1 - np.cos(np.pi * np.minimum(inside, 1.0)))

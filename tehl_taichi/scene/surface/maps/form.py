@@ -1,4 +1,4 @@
-"""The form that a measured map has: one curvature along x and one along y, that of the body it was measured on or none."""
+"""Form of a measured map: one curvature along x and one along y, that of the measured body or zero."""
 
 from dataclasses import dataclass
 
@@ -10,8 +10,9 @@ CURVED = 0.25  # of the rms, left without the curvature: less is taken for the f
 
 @dataclass(frozen=True)
 class SurfaceForm:
-    """flat, left: rms in m without a plane, and without the curvature either; bent: curvature in 1/m, positive where convex, of
-    the axis ("x" or "y") along which it counts most."""
+    """Form of a map. flat: rms height after removing a plane (m); left: rms after removing the curvature, too (m); bent:
+    curvature of the more important axis (1/m, positive if convex); axis: "x" or "y".
+    """
 
     flat: float
     left: float
@@ -20,8 +21,7 @@ class SurfaceForm:
 
     @classmethod
     def of(cls, raw, steps, sizes):
-        """Form of heights (rows, columns) as they were measured; steps: of their points, sizes: of all, along x and y; all in
-        m."""
+        """Form of heights (rows, columns) as measured; steps: distances of points; sizes: of the map; along x and y, in m."""
         sags = [(abs(c) * size**2, c, axis) for c, size, axis in zip(curvature(raw, steps), sizes, "xy")]
         _, bent, axis = max(sags)
         flat, left = (float(levelled(raw, level).std()) for level in ("plane", "form"))
@@ -29,7 +29,7 @@ class SurfaceForm:
 
     @property
     def dominant(self):
-        """Whether next to nothing of the map is left without it."""
+        """Whether the form is almost all of the map."""
         return self.flat >= FLAT and self.left < CURVED * self.flat
 
     @property

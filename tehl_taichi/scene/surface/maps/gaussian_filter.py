@@ -10,25 +10,27 @@ FEWEST = 2.0  # points in a cutoff: a finer one would be the identity; from four
 
 
 def lowpass(values, steps, cutoff):
-    """`values` (points along y, along x), those steps (m, along x, along y) apart, as the mean with weights
-    exp(-pi (r/(ALPHA cutoff))^2); cutoff in m. At the rim the mean is of the points that there are."""
+    """Filter `values` (points along y, along x) with the weights exp(-pi (r/(ALPHA cutoff))^2).
+
+    steps: distances of points (m, along x, along y); cutoff in m. At the rim the mean covers the existing points only.
+    """
     smooth = _smoothed(_smoothed(values, steps[0], cutoff).T, steps[1], cutoff)
     return np.ascontiguousarray(smooth.T)
 
 
 def limits(f):
-    """(smallest, largest) cutoff of a map, m: its points and the size of its part allow no other."""
+    """Smallest and largest cutoff (m) of a map, by its points and its size."""
     lines = [(step, size) for step, size, count in zip(f.steps, f.part_size, f.points) if count > 1]
     return FEWEST * max(step for step, _ in lines) * (1 - 1e-9), min(size for _, size in lines) * (1 + 1e-9)
 
 
 def passes(wavelength, cutoff):
-    """Share of the height of a wave along x or y that is kept, far from the rim."""
+    """Share of the height of a wave along x or y that the filter keeps, far from the rim."""
     return math.exp(-math.pi * (ALPHA * cutoff / wavelength) ** 2)
 
 
 def _smoothed(values, step, cutoff):
-    """Rows of `values`, each for itself."""
+    """Filtered rows of `values`."""
     count = values.shape[1]
     reach = min(count - 1, math.ceil(REACH * cutoff / step))
     size = count + reach  # so that the end of a row does not meet its beginning

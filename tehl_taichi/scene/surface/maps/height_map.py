@@ -1,7 +1,7 @@
 """Measured height maps: reading, levelling, measuring. Rows run along y, columns along x.
 
-Heights are known by the sha256 of their numbers, not by the name of their file: a file that changes does not change a
-feature that was made from it, and a store that holds the heights needs no file.
+Heights are identified by the sha256 of their numbers, not by their file name. So a changed file does not change a feature that
+was made from it, and a store that holds the heights needs no file.
 """
 
 import hashlib
@@ -31,9 +31,9 @@ TEXT = (".csv", ".txt", ".asc", ".xyz")  # endings of files of text
 
 @dataclass(frozen=True)
 class Facts:
-    """Facts of a file besides its heights; empty where no file was read (a store, an array). skipped: what of it was skipped,
-    in words; spacing: (along a row, from row to row) distances of its coordinates, None where there are none; stated: its unit
-    and distances in m."""
+    """Facts of a file besides its heights; empty without a file (a store, an array). skipped: description of skipped parts;
+    spacing: distances (along a row, from row to row) of its coordinates, None without any; stated: its unit and distances in m.
+    """
 
     skipped: str = ""
     spacing: tuple = (None, None)
@@ -41,7 +41,9 @@ class Facts:
 
 
 def keep(values):
-    """(sha256, heights): heights known by their hash for as long as the caller holds them. values: (rows, columns)."""
+    """Register heights under their hash as long as the caller holds them. values: (rows, columns). Returns (sha256,
+    heights).
+    """
     values = np.array(values, "<f8", order="C")
     values.setflags(write=False)
     digest = hashlib.sha256(repr(values.shape).encode() + values.tobytes()).hexdigest()
@@ -49,10 +51,10 @@ def keep(values):
 
 
 def fetch(file, sha256=""):
-    """(sha256, heights in the unit of the file) of the file, or of what is known under `sha256`.
+    """(sha256, heights in the unit of the file) of a file, or of heights registered under `sha256`.
 
-    Raises SceneError when there is no such file, it is no regular grid of at least 4 x 4 numbers or lacks too many, or its
-    heights are other than those of `sha256`.
+    Raises SceneError if the file does not exist, is no regular grid of at least 4 x 4 numbers, lacks too many of them, or if
+    its heights do not match `sha256`.
     """
     known = _known.get(sha256)
     if known is not None:
@@ -67,7 +69,7 @@ def fetch(file, sha256=""):
 
 
 def of_array(values):
-    """(sha256, heights) of heights in memory. Raises SceneError where they are no grid of heights."""
+    """(sha256, heights) of heights in memory. Raises SceneError if they are no grid of heights."""
     try:
         values = np.array(values, float)
     except (ValueError, TypeError):
@@ -85,12 +87,12 @@ def facts(f):
 
 
 def read(file):
-    """Heights (rows, columns) in the unit of the file; nan where nothing was measured. Raises SceneError."""
+    """Heights (rows, columns) in the unit of the file; nan for unmeasured points. Raises SceneError."""
     return table_of(file).values
 
 
 def table_of(file):
-    """Heights as a :class:`tehl_taichi.scene.surface.maps.text_heights.Table`, which knows what it skipped."""
+    """Heights as a :class:`tehl_taichi.scene.surface.maps.text_heights.Table`, which lists skipped parts."""
     path = Path(file)
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a file of heights (.csv, .txt, .asc, .npy)")
@@ -132,7 +134,7 @@ def _load(path):
 
 
 def levelled(values, level):
-    """Heights less what a level of LEVELS says, by least squares; form: all second-order terms."""
+    """Heights without the part that `level` (a key of LEVELS) removes, by least squares; form: all second-order terms."""
     if level == "none":
         return values
     centred = values - values.mean()
@@ -144,25 +146,27 @@ def levelled(values, level):
 
 
 def _slanted(profile, x):
-    """Straight line of a profile; none of one point."""
+    """Straight line through a profile; zero for one point."""
     return x * (x @ profile) / max(x @ x, 0.5)
 
 
 def _curved(values, x, y):
-    """Part that is x^2, y^2 or x y of heights (rows, columns) without a plane; none has any of the others."""
+    """Part of heights (rows, columns; without a plane) that is x^2, y^2 or x y; each term is independent of the others."""
     twist = (y @ values @ x) / max((x @ x) * (y @ y), 0.25)
     return _bent(values.mean(axis=0), x)[0] + _bent(values.mean(axis=1), y)[0][:, None] + twist * np.outer(y, x)
 
 
 def _bent(profile, x):
-    """(parabola of a profile without a slope, its second derivative)."""
+    """(parabola of a profile without slope, its second derivative)."""
     bent = x * x - (x * x).mean()
     share = (bent @ profile) / (bent @ bent) if x.size > 2 else 0.0
     return share * bent, 2 * share
 
 
 def curvature(values, steps):
-    """(along x, along y) of heights (rows, columns) in m, points so far apart (m): 1/m, positive where the middle is high."""
+    """Curvatures (along x, along y) of heights (rows, columns) in m with these point distances (m): 1/m, positive if the middle
+    is high.
+    """
     flat = levelled(values, "plane")
     return tuple(-_bent(flat.mean(axis=axis), np.arange(n) - (n - 1) / 2)[1] / step**2
                  for axis, n, step in zip((0, 1), values.shape[::-1], steps))
@@ -179,7 +183,7 @@ class Measures:
 
     @classmethod
     def of(cls, heights, steps):
-        """heights: (rows, columns) in m, points so far apart along x and along y (m)."""
+        """Measures of heights (rows, columns), m; steps: distances of points along x and along y (m)."""
         slope = math.degrees(math.atan(float(np.hypot(*gradients(heights, steps)).max())))
         return cls(float(heights.min()), float(heights.max()), float(heights.std()), slope)
 
@@ -189,7 +193,9 @@ class Measures:
 
 
 def gradients(heights, steps):
-    """(along x, along y) between neighbours, of all points that have one on either axis; 0 along an axis of one point."""
+    """Gradients (along x, along y) between neighbours, at all points with neighbours on both axes; 0 along an axis of one
+    point.
+    """
     along, across = (np.diff(heights, axis=axis) / step for axis, step in zip((1, 0), steps))
     along = along[:-1] if len(heights) > 1 else along
     across = across[:, :-1] if heights.shape[1] > 1 else across
@@ -197,15 +203,16 @@ def gradients(heights, steps):
 
 
 def missed(heights, along, across):
-    """Share of the rms of `heights` that is lost when only every `along`-th point along x and `across`-th along y (need not be
-    whole) is kept and the rest taken as linear between: what a grid of such cells does not see."""
+    """Share of the rms of `heights` that a coarse grid loses: every `along`-th point along x and `across`-th along y is kept
+    (not necessarily whole numbers), and the rest interpolated linearly.
+    """
     rms = float(heights.std())
     seen = _through(_through(heights, along).T, across).T
     return float((heights - seen).std()) / rms if rms > 0 else 0.0
 
 
 def _through(values, step):
-    """Rows of `values` by way of points `step` apart; the last stretch, where there is none, as it is."""
+    """Rows of `values` interpolated from points `step` apart; an incomplete last interval is unchanged."""
     count = int((values.shape[1] - 1) / step) if step > 1 else 0
     if count == 0:
         return values
@@ -217,6 +224,6 @@ def _through(values, step):
 
 
 def _linear(values, at):
-    """Rows of `values` at the positions `at` (in points), linear between."""
+    """Rows of `values` at the positions `at` (in points), by linear interpolation."""
     low = np.minimum(at.astype(int), values.shape[1] - 2)
     return values[:, low] * (1 - (at - low)) + values[:, low + 1] * (at - low)

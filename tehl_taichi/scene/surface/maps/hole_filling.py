@@ -1,4 +1,4 @@
-"""Points of a height map that were not measured: filled smoothly from their neighbours, where the holes are few and small."""
+"""Filling of unmeasured points of a height map, smoothly from their neighbours, if the holes are few and small."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ def missing(values):
 
 
 def depth(holes):
-    """Points from the rim of the largest hole to its middle; the edge of the map is no rim."""
+    """Number of points from the rim of the largest hole to its middle; the edge of the map is no rim."""
     inside, layers = holes, 0
     while inside.any():
         if inside.all():
@@ -22,7 +22,7 @@ def depth(holes):
 
 
 def filled(values):
-    """`values` with its holes filled: every point there is the mean of its neighbours (Laplace's equation)."""
+    """`values` with filled holes: every filled point is the mean of its neighbours (Laplace's equation)."""
     holes = missing(values)
     if not holes.any():
         return values
@@ -40,7 +40,7 @@ def filled(values):
 
 
 def _sum(values):
-    """Sum of the values at the four neighbours; there are none beyond the edge."""
+    """Sum of the values at the four neighbours; zero beyond the edge."""
     out = np.zeros(values.shape)
     out[1:] += values[:-1]
     out[:-1] += values[1:]
@@ -50,5 +50,5 @@ def _sum(values):
 
 
 def _beside(points):
-    """Points with a neighbour among `points`."""
+    """Mask of points with a neighbour among `points`."""
     return _sum(points * 1.0) > 0

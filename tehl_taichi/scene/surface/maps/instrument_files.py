@@ -1,4 +1,4 @@
-"""Files of instruments, read by SurfaceTopography and x3pio (the extra `topography`)."""
+"""Instrument files, read by SurfaceTopography and x3pio (the extra `topography`)."""
 
 import contextlib
 import importlib.util
@@ -17,8 +17,11 @@ UNKNOWN_FILE = ("CannotDetectFileFormat", "UnknownFileFormat")  # errors of Surf
 
 
 def read(path, readable):
-    """(numbers of the file as a table of text has them: a grid (rows, columns), or columns of places and heights of a line;
-    what it says of its unit and distances). readable: endings of what is read without the extra, in words. SceneError."""
+    """Read an instrument file. Returns (numbers as in a text table: a grid (rows, columns), or columns of positions and heights
+    of a line; the unit and distances that the file states).
+
+    readable: description of endings that are read without the extra. Raises SceneError.
+    """
     readers = [_x3p] * (ending(path) == ".x3p" and _installed("x3pio")) + [_topography] * _installed("SurfaceTopography")
     if not readers:
         raise SceneError(f"{path.name} does not end in {readable}; other formats need SurfaceTopography: {extra('topography')}")
@@ -40,7 +43,7 @@ def _installed(name):
 
 
 def _x3p(path):
-    """Heights of an x3p file (ISO 25178-72), whose first layer counts; its numbers are m."""
+    """Heights of an x3p file (ISO 25178-72): its first layer, in m."""
     import x3pio
 
     found = x3pio.read(path)
@@ -63,7 +66,7 @@ def _topography(path):
 
 
 def _table(found, sized):
-    """sized: whether its sizes mean anything."""
+    """Numbers and stated values of a topography; sized: its sizes are meaningful."""
     found = found if found.unit is None or found.unit in UNITS else found.to_unit("um")
     heights: Any = np.ma.filled(np.ma.asarray(found.heights(), float), math.nan)
     unit = found.unit or ""
@@ -75,12 +78,12 @@ def _table(found, sized):
 
 
 def _steps(unit, size, count):
-    """Distance in m of so many intervals; () where the unit is not known."""
+    """Distance in m of `count` intervals; () if the unit is not known."""
     return (float(size) * UNITS[unit] / count,) if unit and size and count else ()
 
 
 def _reader_error(error, readable):
-    """What a reader of instruments' files says; where none knows the file, its list of attempts is of no use."""
+    """Error message of the reader of instrument files; its list of tried formats is left out."""
     if type(error).__name__ in UNKNOWN_FILE:
         return f"SurfaceTopography does not read this format; export the heights as text ({readable})"
     return brief(error)

@@ -1,4 +1,4 @@
-"""Line profiles in tables of numbers: heights alone, or beside the places at which a stylus measured them."""
+"""Line profiles in tables of numbers: heights alone, or with the positions of a stylus."""
 
 import numpy as np
 
@@ -10,8 +10,11 @@ UNEVEN = "uneven distances (heights interpolated at even ones)"
 
 
 def heights_of(values):
-    """(heights (1, points), their distance in the unit of the places or None, what else the table had, in words) of one row,
-    one column, or two of them (places, heights; perhaps behind their numbers). None where a table has no line profile."""
+    """(heights (1, points), their distance in the unit of the positions or None, description of other columns).
+
+    Accepts one row, one column, or two columns (positions, heights), perhaps after running numbers. None if a table has no line
+    profile.
+    """
     columns = np.atleast_2d(values).T if values.ndim == 1 or values.shape[0] < 3 else values
     if columns.ndim != 2 or len(columns) < FEWEST:
         return None
@@ -23,7 +26,7 @@ def heights_of(values):
 
 
 def _placed(x, z):
-    """Profile of heights z at the places x; None where these neither rise nor fall."""
+    """Profile of heights z at positions x; None if x neither rises nor falls."""
     if not np.isfinite(x).all() or x[0] == x[-1]:
         return None
     found, even = f"a column of coordinates ({x[0]:g} to {x[-1]:g})", np.linspace(x[0], x[-1], x.size)

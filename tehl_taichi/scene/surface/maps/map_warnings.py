@@ -29,14 +29,15 @@ RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
 
 
 def doubts(f, scene):
-    """Sentences about a map that has holes or spikes, has the form of its body, is flat or rough, finer or coarser than the
-    grid, ends in a step, or fades out over much of it."""
+    """Warnings about a map: holes, spikes, the form of its body, flat or rough heights, points finer or coarser than the grid,
+    an end with a step, a wide taper.
+    """
     return [*_holes(f), *_spikes(f), *_row_offsets(f), *form(f), *_across(f, scene), *_size(f), *_rough(f, scene),
             *_grid(f, scene), *_rim(f), *_faded(f)]
 
 
 def lines(f, scene):
-    """Two lines: what was read, and what passes through the contact."""
+    """Two lines: the heights as read, and the heights that pass through the contact."""
     steps = points_in_a_cell(f, scene)
     m, name = f.measures, f"{f.shape} {os.path.basename(f.file)}"
     unit_said, steps_said = stated_keys.words(f)
@@ -52,12 +53,12 @@ def lines(f, scene):
 
 
 def _patch(f):
-    """Size of the used patch along the axes on which it has points."""
+    """Text of the size of the used patch along the axes on which it has points."""
     return " x ".join(_um(size) for size, count in zip(f.patch, f.points) if count > 1) + " um"
 
 
 def _offset(f):
-    """Place of the part in the scan."""
+    """Text of the position of the used part in the scan."""
     moved = [f"{axis} = {_um(offset)} um" for axis, offset in (("x", f.offset_x), ("y", f.offset_y)) if offset]
     return f" around {', '.join(moved)}" if moved else ""
 
@@ -71,7 +72,7 @@ def _taper(f):
 
 
 def _apart(f):
-    """Distances of its points, in um: one number where they are one."""
+    """Text of the distances of its points in um: one number if they are equal."""
     return " x ".join(dict.fromkeys(map(_um, f.steps)))
 
 
@@ -88,7 +89,7 @@ def _holes(f):
 
 
 def _spikes(f):
-    """Number of spikes, and place of the largest."""
+    """Warning with the number of spikes, and the position of the largest."""
     if count := int(f.spikes.sum()):
         away = np.where(f.spikes, np.abs(f.part - f.raw), 0.0)
         largest = np.unravel_index(int(away.argmax()), away.shape)
@@ -122,13 +123,14 @@ def form(f):
 
 
 def form_taken(f, scene):
-    """' (convex with a radius of ...)': the form that was removed; "" where only a plane was."""
+    """Text ' (convex with a radius of ...)' of a removed form; "" if only a plane was removed."""
     return f" ({f.form.says}{_mate(f, scene)})" if f.level == "form" else ""
 
 
 def _mate(f, scene):
-    """What the removed form means for the other body, if it is the form of the scanned one: whoever knows that one sees
-    whether radii and scan belong together."""
+    """Text with the radius of the other body, if the form is that of the scanned one; it shows whether radii and scan belong
+    together.
+    """
     if not f.form.dominant or not f.form.convex or f.form.axis != "x":
         return ""
     other = 1 / scene.contact.radius_x - f.form.bent
@@ -138,7 +140,7 @@ def _mate(f, scene):
 
 
 def _across(f, scene):
-    """A form that is not that of the bodies: those of a line contact are curved along x alone."""
+    """Warning about a form that differs from that of the bodies, which are curved only along x in a line contact."""
     if scene.contact.kind == "line" and f.form.dominant and f.form.axis == "y":
         yield (f"{_name(f)}: its form is {f.form.says}, across the rolling direction, but the bodies of a line contact are "
                f"curved along x only. If the scan lies across, set feature.transpose = {str(not f.transpose).lower()}")
@@ -152,7 +154,9 @@ def _size(f):
 
 
 def _rough(f, scene):
-    """One sentence for slopes that the film equation, and heights that steel does not carry: one cutoff helps against both."""
+    """One sentence about slopes too large for the film equation and heights too large for steel: one cutoff helps against
+    both.
+    """
     why = [*_steep(f), *_hard(f, scene)]
     if why:
         helps = f", or roughness? {found}" if (found := _cutoff(f, scene)) else "?"
@@ -186,12 +190,12 @@ def _grid(f, scene):
 
 
 def carried(scene):
-    """Whether the grid sees every map of the scene."""
+    """Whether the grid resolves every map of the scene."""
     return all(missed(middle(f.used), *points_in_a_cell(f, scene)) <= SHARE for f in scene.features if f.kind.measured)
 
 
 def _cutoff(f, scene):
-    """The cutoff with which the doubts about grid, slopes and pressure are gone, in words; "" where there is none."""
+    """Text of the cutoff that removes the warnings about grid, slopes and pressure; "" without one."""
     if not (cutoff := helping(f, scene)):
         return ""
     cells, left = cutoff / max(Scales.of(scene).cell(scene.grid)), np.ptp(f.passing(cutoff))
@@ -200,7 +204,7 @@ def _cutoff(f, scene):
 
 
 def _finer(heights, steps, grid):
-    """The grid that would see it, in words."""
+    """Option of the grid that would resolve the map."""
     factor = 2
     while missed(heights, steps[0] / factor, steps[1] / factor) > SHARE:  # ends at the map's own points
         factor *= 2

@@ -1,4 +1,4 @@
-"""Keys of the shapes whose heights come from a file, and what follows from them."""
+"""Keys of the shapes with heights from a file, and quantities that follow from them."""
 
 import dataclasses
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ NEAREST, FARTHEST = 1e-10, 5e-4  # m, between points of a map: 0.001 was meant i
 
 @dataclass(frozen=True)
 class Measured:
-    """Keys of a map or a line profile, and what follows from them."""
+    """Keys of a map or a line profile, and quantities that follow from them."""
 
     if TYPE_CHECKING:  # of the feature that has these keys
         kind: Any
@@ -52,15 +52,14 @@ class Measured:
                 if key == "heights" or not isinstance(getattr(type(self), key, None), cached_property)}
 
     def __setstate__(self, state):
-        """A copy in another process brings its heights along."""
+        """Restore the state; a copy in another process contains its heights."""
         self.__dict__.update(state)
         if "heights" in state:
             self.__dict__["heights"] = height_map.keep(self.heights)[1]
 
     @cached_property
     def heights(self):
-        """Heights (rows, columns; one row of a profile) in the unit of its file, as when the feature was made; nan in its
-        holes."""
+        """Heights (rows, columns; one row of a profile) in the unit of the file, as when the feature was made; nan in holes."""
         return height_map.fetch(self.file, self.sha256)[1]
 
     @property
@@ -70,46 +69,45 @@ class Measured:
 
     @cached_property
     def part(self):
-        """Heights (points along y, along x) in m of the part that is used, as they lie in the contact, scaled; nan in its
-        holes."""
+        """Scaled heights (points along y, along x) in m of the used part, oriented as in the contact; nan in holes."""
         (low_x, high_x), (low_y, high_y) = self.ends
         turned = self.orientation.turned(self.heights)[low_y:high_y, low_x:high_x]
         return np.ascontiguousarray(turned) * (UNITS[self.unit] * self.scale)
 
     @cached_property
     def ends(self):
-        """((first, after last) along x, along y) of the points of the part among all of them, as they lie in the contact."""
+        """Ranges ((first, after last) along x, along y) of the points of the used part, oriented as in the contact."""
         return tuple(_ends(*each) for each in zip(self.points, self.steps, self.patch, (self.offset_x, self.offset_y)))
 
     @cached_property
     def spikes(self):
-        """Points of the part that are spikes of the measurement: they count as not measured."""
+        """Mask of points that are spikes of the measurement; they count as not measured."""
         return outliers.spikes(self.part, self.steps)
 
     @cached_property
     def raw(self):
-        """The part with its holes filled and with the form that it was measured with."""
+        """Used part with filled holes and with its form."""
         return hole_filling.filled(np.where(self.spikes, np.nan, self.part))
 
     @property
     def holes(self):
-        """Points (along y, along x) of the part that were not measured: what passes there is filled in."""
+        """Mask (along y, along x) of filled points of the used part."""
         return hole_filling.missing(self.part) | self.spikes
 
     def nearest(self, x, y):
-        """Points (along y, along x) of the part that are nearest to x, y (m, from its centre), arrays or numbers."""
+        """Indices (along y, along x) of the points nearest to x, y (m, from the centre; arrays or numbers)."""
         i, j = (np.clip(np.rint(at / step + (count - 1) / 2).astype(int), 0, count - 1)
                 for at, step, count in zip((np.asarray(x), np.asarray(y)), self.steps, self.part.shape[::-1]))
         return j, i
 
     def place_in_file(self, j, i):
-        """Where the point (j along y, i along x) of the part stands in its file, in words."""
+        """Text: position in the file of the point (j along y, i along x) of the used part."""
         (low_x, _), (low_y, _) = self.ends
         row, column = self.orientation.in_file(self.heights.shape, j + low_y, i + low_x)
         return self.kind.place_words(row + 1, column + 1)
 
     def position_in_file(self, x, y):
-        """Where in its file the nearest point to x, y (m, from its centre) stands, in words; "" beyond its patch."""
+        """Text: position in the file of the point nearest to x, y (m, from the centre); "" beyond the patch."""
         if any(abs(at) > size / 2 for at, size in zip((x, y), self.patch)):
             return ""
         nearest = self.nearest(x, y)
@@ -117,29 +115,31 @@ class Measured:
 
     @cached_property
     def whole_heights(self):
-        """The part levelled and filtered: what passes through the contact, not faded out."""
+        """Used part, levelled and filtered, not faded out."""
         return self.filtered(self.cutoff)
 
     @cached_property
     def levelled(self):
-        """The part without what `level` removes."""
+        """Used part without the form, plane or mean that `level` removes."""
         return height_map.levelled(self.raw, self.level) if self.level != ROWS else height_map.levelled(self.even_rows, "plane")
 
     @property
     def even_rows(self):
-        """The part without the offsets of the rows of its file."""
+        """Used part without the offsets of the rows of its file."""
         rows = self.raw.T if self.orientation.transpose else self.raw
         rows = row_offsets.removed(rows)
         return rows.T if self.orientation.transpose else rows
 
     @cached_property
     def row_offsets(self):
-        """The :class:`tehl_taichi.scene.surface.maps.row_offsets.RowOffsets` that the rows of its file have, or None."""
+        """The :class:`tehl_taichi.scene.surface.maps.row_offsets.RowOffsets` of the rows of its file, or None."""
         flat = height_map.levelled(self.raw, "plane")
         return row_offsets.found(flat.T if self.orientation.transpose else flat)
 
     def filtered(self, cutoff):
-        """Heights levelled, low-pass with that cutoff (m; 0: none). A plane that was left passes as it is, up to the rim."""
+        """Heights levelled and low-pass filtered with that cutoff (m; 0: none). A remaining plane passes unchanged, up to the
+        rim.
+        """
         flat = self.levelled
         if not cutoff:
             return flat
@@ -148,22 +148,22 @@ class Measured:
 
     @cached_property
     def form(self):
-        """The :class:`tehl_taichi.scene.surface.maps.form.SurfaceForm` that it was measured with."""
+        """The :class:`tehl_taichi.scene.surface.maps.form.SurfaceForm` of the measurement."""
         return SurfaceForm.of(self.raw, self.steps, self.part_size)
 
     @cached_property
     def cutoffs(self):
-        """{(scales, grid): cutoff that helps there}, kept by `scene.map_cutoff`, where each try is a filter."""
+        """{(scales, grid): cutoff that helps there}: a cache for `scene.map_cutoff`, where each trial is a filter."""
         return {}
 
     @property
     def file_steps(self):
-        """(along a row of the file, from row to row): distances of its points in m."""
+        """Distances (m) of its points (along a row of the file, from row to row)."""
         return self.pixel, self.pixel_y or self.pixel
 
     @property
     def steps(self):
-        """(along x, along y): distances of its points in m."""
+        """Distances (m) of its points (along x, along y)."""
         return self.orientation.swapped(self.file_steps)
 
     @property
@@ -173,30 +173,32 @@ class Measured:
 
     @property
     def size(self):
-        """(length, width) of the whole map in m; 0 along an axis of one point."""
+        """Size (m) of the whole map (along x, along y); 0 along an axis of one point."""
         return tuple((count - 1) * step for count, step in zip(self.points, self.steps))
 
     @property
     def part_size(self):
-        """(length, width) of the part that is used, m."""
+        """Size (m) of the used part (along x, along y)."""
         return tuple((count - 1) * step for count, step in zip(self.part.shape[::-1], self.steps))
 
     @property
     def patch(self):
-        """(length along x, along y) in m of the part of a map that is used; of a profile inf along y where it has no end."""
+        """Size (m) of the used patch (along x, along y); inf along y for a profile without an end there."""
         return self.kind.patch(self)
 
     def to_rim(self, x, y):
-        """(along x, along y): distances (m) of a point x, y (m, from its centre) from the rim of the patch, < 0 beyond it."""
+        """Distances (m) of a point x, y (m, from the centre) from the rim of the patch (along x, along y); negative beyond
+        it.
+        """
         return tuple(size / 2 - abs(at) for size, at in zip(self.patch, (x, y)))
 
     @property
     def used(self):
-        """What passes through the contact: `whole_heights`, faded out at the rim of the patch."""
+        """Heights that pass through the contact: `whole_heights`, faded out at the rim of the patch."""
         return self.faded(self.whole_heights)
 
     def passing(self, cutoff):
-        """Heights that pass with another cutoff (m; 0: none)."""
+        """Heights that would pass with another cutoff (m; 0: none)."""
         return self.faded(self.filtered(cutoff))
 
     def faded(self, values):
@@ -206,17 +208,17 @@ class Measured:
 
     @cached_property
     def measures(self):
-        """Range and rms of what passes of a map; the largest slope is that of its patch as it was measured."""
+        """Range and rms of the passing heights; the largest slope is that of the patch before fading."""
         return dataclasses.replace(Measures.of(self.used, self.steps), slope=self.unfaded.slope)
 
     @cached_property
     def unfaded(self):
-        """Range, rms and largest slope of its patch, not faded out."""
+        """Range, rms and largest slope of the patch before fading."""
         return Measures.of(self.whole_heights, self.steps)
 
 
 def _ends(count, step, size, offset):
-    """(first, after last) of the points of a part of that size, its centre moved by `offset` in whole points, m."""
+    """(first, after last) point of a part with this size, its centre moved by `offset` (m) in whole points."""
     cut = (count - 1 - round(size / step)) // 2 if count > 1 else 0
     moved = min(max(round(offset / step), -cut), cut)
     return cut + moved, count - cut + moved

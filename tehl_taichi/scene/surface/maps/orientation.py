@@ -1,4 +1,4 @@
-"""Orientation of a scan: from the rows and columns of its file to y and x of the contact."""
+"""Orientation of a scan: from rows and columns of the file to y and x of the contact."""
 
 from dataclasses import dataclass
 
@@ -7,28 +7,30 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Orientation:
-    """transpose: rows of the file lie along y, not x; mirror_x, mirror_y: after that its ends along x or y change places."""
+    """transpose: rows of the file lie along y, not x; mirror_x, mirror_y: then reverse the points along x or y."""
 
     transpose: bool = False
     mirror_x: bool = False
     mirror_y: bool = False
 
     def turned(self, values):
-        """(points along y, along x) of `values` (rows, columns), in memory as a file that is turned: sums are the same."""
+        """Oriented `values`: (points along y, along x) of (rows, columns), contiguous in memory so that sums are equal to those
+        of an oriented file.
+        """
         values = values.T if self.transpose else values
         return np.ascontiguousarray(values[::-1 if self.mirror_y else 1, ::-1 if self.mirror_x else 1])
 
     def in_file(self, shape, j, i):
-        """(row, column), from 0, in a file of that shape of the point j along y, i along x."""
+        """(row, column), from 0, in a file of this shape, of the point j along y, i along x."""
         numbers = self.turned(np.arange(shape[0] * shape[1]).reshape(shape))
         return divmod(int(numbers[j, i]), shape[1])
 
     def swapped(self, pair):
-        """(along x, along y) of what a file has (along a row, from row to row)."""
+        """Pair (along x, along y) from a pair of the file (along a row, from row to row)."""
         return tuple(pair)[::-1] if self.transpose else tuple(pair)
 
     @property
     def says(self):
-        """Description of the turns; "" without any."""
+        """Description of the orientation; "" if nothing is changed."""
         axes = [axis for axis, mirrored in (("x", self.mirror_x), ("y", self.mirror_y)) if mirrored]
         return ", ".join(["transposed"] * self.transpose + [f"mirrored along {' and '.join(axes)}"] * bool(axes))

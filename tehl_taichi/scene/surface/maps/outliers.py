@@ -1,4 +1,4 @@
-"""Spikes of a measurement: few points far above or below their neighbours, as optical instruments make them."""
+"""Spikes of a measurement: few points far above or below their neighbours, an artefact of optical instruments."""
 
 import math
 
@@ -16,7 +16,9 @@ NEAR = np.array([(j, i) for j in (-1, 0, 1) for i in (-1, 0, 1) if (j, i) != (0,
 
 
 def spikes(heights, steps):
-    """Where `heights` (points along y, along x; m, nan where not measured), steps (m, along x, along y) apart, are spikes."""
+    """Mask of the spikes of `heights` (points along y, along x; m, nan if not measured); steps: distances (m, along x, along
+    y).
+    """
     steep, none = _steep(heights, steps), np.zeros(heights.shape, bool)
     if not steep.any() or steep.mean() > FEW:
         return none
@@ -35,12 +37,12 @@ def _along(shape):
 
 
 def _least(shape, steps):
-    """The smaller distance of neighbours."""
+    """Smallest distance of neighbouring points."""
     return min(step for step, count in zip(steps, shape[::-1]) if count > 1)
 
 
 def _steep(heights, steps):
-    """Points with a steep side."""
+    """Mask of points with a steep side."""
     out = np.zeros(heights.shape, bool)
     for axis, step in zip((1, 0), steps):
         over = np.abs(np.diff(heights, axis=axis)) > STEEP * step  # not beside what was not measured
@@ -51,7 +53,7 @@ def _steep(heights, steps):
 
 
 def _wider(points):
-    """These points and their eight neighbours."""
+    """Mask of these points and their eight neighbours."""
     for axis in (0, 1):
         out, first, second = points.copy(), np.moveaxis(points, axis, 0)[:-1], np.moveaxis(points, axis, 0)[1:]
         moved = np.moveaxis(out, axis, 0)
@@ -62,8 +64,10 @@ def _wider(points):
 
 
 def _usual(padded, shape, reach):
-    """Standard deviation of what points differ from their neighbours, by the middle of them and by all but a hundredth:
-    plateaus with valleys differ little in the middle."""
+    """Usual standard deviation of the differences to neighbours: from their median and from their 99 % quantile.
+
+    The median alone is too small for plateaus with valleys.
+    """
     every = max(1, math.prod(shape) // SAMPLE)
     at = np.stack(np.unravel_index(np.arange(0, math.prod(shape), every), shape), axis=1)
     found = np.abs(_differences(padded, at, reach))
@@ -72,7 +76,7 @@ def _usual(padded, shape, reach):
 
 
 def _differences(padded, at, reach):
-    """Heights at the points less the median of those around; nan where there are none."""
+    """Heights at the points minus the median of their surroundings; nan without neighbours."""
     around = [(j, i) for j in range(-reach[0], reach[0] + 1) for i in range(-reach[1], reach[1] + 1) if (j, i) != (0, 0)]
     places = at + np.array(reach)
     values = np.stack([padded[places[:, 0] + j, places[:, 1] + i] for j, i in around])
@@ -83,7 +87,7 @@ def _differences(padded, at, reach):
 
 
 def _small(found, out):
-    """The points that lie in groups of at most LARGEST."""
+    """Mask of the points in groups of at most LARGEST."""
     left = set(map(tuple, found.tolist()))
     while left:
         group, new = [], [left.pop()]

@@ -1,4 +1,4 @@
-"""Check that the used part of a scan was measured, and the choice of another part."""
+"""Check that the used part of a scan was measured; proposal of another part."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from tehl_taichi.scene.surface.maps.refusals import HeightsRefused
 
 
 def check(f):
-    """Refuse a part that lacks too many heights. Raises HeightsRefused, which names a part that does not."""
+    """Refuse a part that lacks too many heights. Raises HeightsRefused, which proposes another part."""
     holes = f.holes
     if _enough(holes):
         return
@@ -38,13 +38,15 @@ def _large(ends):
 
 
 def measured_part(holes):
-    """(first, after last row, first, after last column) of what is left where the edge that lacks the largest share is cut off
-    until none lacks more than hole_filling.MOST."""
+    """Largest measured part: (first, after last row, first, after last column).
+
+    The edge that lacks the largest share of points is cut off until no edge lacks more than hole_filling.MOST.
+    """
     total = np.pad(np.cumsum(np.cumsum(holes, axis=0, dtype=int), axis=1), ((1, 0), (1, 0)))
     ends = [0, holes.shape[0], 0, holes.shape[1]]
 
     def lacking(a, b, c, d):
-        """Share of the points in these rows and columns."""
+        """Share of unmeasured points in these rows and columns."""
         return (total[b, d] - total[a, d] - total[b, c] + total[a, c]) / max((b - a) * (d - c), 1)
 
     while ends[1] - ends[0] > 1 or ends[3] - ends[2] > 1:

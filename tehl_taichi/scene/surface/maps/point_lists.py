@@ -1,4 +1,4 @@
-"""Lists of points x, y, z as a grid of heights."""
+"""Conversion of lists of points x, y, z to a grid of heights."""
 
 import itertools
 import math
@@ -12,9 +12,12 @@ FEWEST = 4  # points along each axis
 
 
 def grid_of(values, names=()):
-    """(heights (rows along y, columns along x), nan where the list has no point, distance along x, along y) of a list of points
-    (points, columns): two columns are the coordinates of a regular grid, x first, the first other one the heights, unless the
-    names of the columns (x, y, z) say which they are. None where there are no such columns."""
+    """Grid of a list of points (points, columns): (heights (rows along y, columns along x), distance along x, along y); nan
+    where the list has no point. None without coordinates of a regular grid.
+
+    Two columns are coordinates, x first; the first other column holds the heights, unless the names of the columns (x, y, z)
+    say otherwise.
+    """
     many = values if values.shape[0] >= values.shape[1] else values.T
     if len(names) == many.shape[1] and {"x", "y", "z"} <= set(names):
         many = many[:, [names.index(name) for name in "xyz"]]
@@ -30,7 +33,7 @@ def grid_of(values, names=()):
 
 
 def _axis(column):
-    """(coordinates, index of each point among them) of a column that has few values, evenly apart; None of another."""
+    """(coordinates, index of each point) of a column with few, evenly spaced values; None for another column."""
     if not np.isfinite(column).all() or np.ptp(column) == 0:
         return None
     scale = ROUNDED * float(np.ptp(column))

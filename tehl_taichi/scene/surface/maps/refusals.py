@@ -1,10 +1,10 @@
-"""Refusals of a scan that its scene file can still mend: `tehl new` writes the file and says them."""
+"""Refusals of a scan that can be corrected in its scene file: `tehl new` writes the file and prints them."""
 
 from tehl_taichi.errors import SceneError
 
 
 class KeyMissing(SceneError):
-    """A key that must be given is not."""
+    """A required key is missing."""
 
 
 class HeightsRefused(SceneError):

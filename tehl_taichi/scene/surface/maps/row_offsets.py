@@ -1,4 +1,4 @@
-"""Offsets of the rows of a scan against each other: of stitched maps, and of scans that were measured line by line."""
+"""Height offsets between the rows of a scan: in stitched maps and in maps measured line by line."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ FEWEST = 8  # rows
 
 @dataclass(frozen=True)
 class RowOffsets:
-    """size: usual jump of the rows, or the largest one of a stitch (m); rows: pairs of rows with one, 0: all."""
+    """size: usual offset between rows, or the largest one of a stitch (m); rows: number of row pairs with an offset, 0: all."""
 
     size: float
     rows: int
@@ -25,8 +25,10 @@ def removed(values):
 
 
 def found(values):
-    """The :class:`RowOffsets` of heights (rows, columns) without a plane; None where there are none that roughness does not
-    explain: marks along the rows change from row to row, too, but gradually."""
+    """Find the :class:`RowOffsets` of heights (rows, columns) without a plane; None without offsets.
+
+    Grinding marks along the rows also change from row to row, but gradually; they are no offsets.
+    """
     if len(values) < FEWEST:
         return None
     offsets, rest = np.median(values, axis=1), removed(values)

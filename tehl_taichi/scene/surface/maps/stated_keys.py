@@ -1,4 +1,4 @@
-"""Unit and distances of a feature and of its file: one fills in the other, and both must agree."""
+"""Unit and distances of a feature and of its file: missing ones are filled in, given ones must agree."""
 
 import math
 import os
@@ -14,8 +14,7 @@ KEYS = {"x": "pixel", "y": "pixel_y"}
 
 
 def settle(f):
-    """Set the keys that are not given to what the file says. Raises SceneError where the file contradicts those that are, or
-    says what cannot be."""
+    """Fill in missing keys from the file. Raises SceneError if the file contradicts given keys or states impossible values."""
     facts = height_map.facts(f)
     _unit(f, facts.stated.unit)
     for axis in "xy" if f.heights.shape[0] > 1 else "x":
@@ -34,12 +33,12 @@ def _unit(f, unit):
 
 
 def usable(distances):
-    """The likeliest of such distances (m) in six digits, 0 where there is none or it cannot be."""
+    """Most likely of these distances (m) with six digits, 0 without a possible one."""
     return float(f"{distances[0]:.6g}") if distances and NEAREST <= distances[0] <= FARTHEST else 0.0
 
 
 def _distance(f, key, distances):
-    """distances: that the file states, m, the likeliest first."""
+    """Fill in or check a distance. distances: stated in the file, m, the most likely first."""
     if not distances:
         return
     value, possible = getattr(f, key), usable(distances)
@@ -59,26 +58,26 @@ def _like(value, distances):
 
 
 def _check_spacing(f, key, step, found):
-    """Refuse a pixel that the coordinates in the file contradict, whatever unit they have."""
+    """Refuse a pixel size that contradicts the coordinates in the file in every unit."""
     if not any(math.isclose(found * unit, step, rel_tol=SAME) for unit in UNITS.values()):
         raise SceneError(f"feature.{key} = {step:g} m does not match the coordinates in feature.file = {f.file!r}, which are "
                          f"{found:g} apart: {in_units(found) or 'too near or too far in every unit'}")
 
 
 def pixel_meant(f):
-    """Distances that the coordinates of the file have in units that make sense of them, for the end of a sentence."""
+    """End of a sentence: distances of the file's coordinates in all units that make sense."""
     found = height_map.facts(f).spacing[0]
     each = in_units(found)
     return f"; its coordinates are {found:g} apart: {each}" if each else ""
 
 
 def in_units(found):
-    """The possible distances in m of coordinates that are `found` apart, "" where none is possible."""
+    """Text of the possible distances in m of coordinates that are `found` apart, "" if none is possible."""
     return ", ".join(f"{found * size:.4g} m if they are in {unit}" for unit, size in UNITS.items()
                      if found and NEAREST <= found * size <= FARTHEST)
 
 
 def words(f):
-    """(for its unit, for its distances): words where the file states the value of the feature, "" else."""
+    """Texts (for the unit, for the distances) if the file states the value of the feature, else ""."""
     stated, same = height_map.facts(f).stated, " (as the file says)"
     return same * (stated.unit == f.unit), same * bool(stated.x and _like(f.pixel, stated.x))

@@ -1,4 +1,4 @@
-"""Unit and distances of points that a file of heights states: in the header of a text file, or as its format has them."""
+"""Unit and point distances that a file of heights states in its header or format."""
 
 import math
 import re
@@ -25,8 +25,9 @@ ROUND = 2  # digits of a distance that a person has set
 
 @dataclass(frozen=True)
 class Stated:
-    """unit: of the heights, "" where the file says none; x, y: distances of the points in a row and of the rows, m,
-    the likeliest first, () where none is said; place_unit: of coordinates, "" where none is said."""
+    """Stated values. unit: of the heights, "" if unknown; x, y: possible distances of the points in a row and of the rows, m,
+    the most likely first, () if unknown; place_unit: of coordinates, "" if unknown.
+    """
 
     unit: str = ""
     x: tuple = ()
@@ -34,7 +35,7 @@ class Stated:
     place_unit: str = ""
 
     def with_spacing(self, spacing):
-        """Stated values with the distances of coordinates, where their unit is known; spacing: in that unit, None: none."""
+        """Stated values with the distances of coordinates, if their unit is known; spacing: in that unit, or None."""
         if not self.place_unit:
             return self
         x, y = (() if step is None else (step * UNITS[self.place_unit],) for step in spacing)
@@ -55,20 +56,20 @@ def in_header(lines, shape):
 
 
 def column_names(lines):
-    """First letters of the names of columns in the last header line, () where there is none."""
+    """First letters of the column names in the last header line, () without names."""
     words = re.split(r"[;,\t ]+", BRACKET.sub("", lines[-1].lstrip("#/ ")).strip()) if lines else ()
     return tuple(word.strip("\"'")[:1].lower() for word in words)
 
 
 def unit_of(text):
-    """Key of UNITS for a unit in words, "" where it is none."""
+    """Key of UNITS for the text of a unit, "" for other texts."""
     word = text.strip().strip("\"'[]().").replace("\ufffdm", "um").translate(MICRO)  # a micro sign of another encoding
     known = next((unit for name, unit in NAMES.items() if word.lower().startswith(name)), word)
     return known if known in UNITS else ""
 
 
 def _parts(line):
-    """(key, values) of a line of a header in lower case (units keep theirs); None of one without values."""
+    """(key, values) of a header line in lower case (units unchanged); None for a line without values."""
     text = line.lstrip("#/ ").strip()
     parts = [part.strip().strip("\"'").strip() for part in re.split(r"[;\t:=]", text) if part.strip()]
     if len(parts) == 1:
@@ -77,7 +78,7 @@ def _parts(line):
 
 
 def _note(found, sizes, key, values):
-    """Enter the value of a line; the first one counts."""
+    """Store the value of a header line; the first one counts."""
     name, unit = BRACKET.sub("", key).strip().lower(), _unit_in(key, values)
     if not unit:
         return
@@ -100,7 +101,7 @@ def _length(found, sizes, name, number, unit):
 
 
 def _heads(found, words):
-    """Units in the names of columns, as in x [mm], z [um]."""
+    """Store units in the names of columns, such as x [mm], z [um]."""
     for word in words:
         unit, name = _unit_in(word, ()), BRACKET.sub("", word).strip().lower()
         if unit and name in PLACES:
@@ -110,7 +111,7 @@ def _heads(found, words):
 
 
 def _unit_in(key, values):
-    """The unit in the brackets of a key, behind a number or alone among the values; ""."""
+    """Unit in the brackets of a key, after a number, or alone among the values; "" without one."""
     inside = BRACKET.search(key)
     words = [inside[1]] if inside else [NUMBER.sub("", value.translate(MICRO), count=1) for value in values]
     return next(filter(None, map(unit_of, words)), "")
@@ -121,7 +122,7 @@ def _number(values):
 
 
 def _steps(number, unit, count):
-    """Distances (m) of so many points on a length: an interval for each of them, or one less where that one is rounder."""
+    """Possible distances (m) of `count` points on a length: one interval per point, or one fewer; the rounder value first."""
     length = float(number.replace(",", "."))
     each, between = length / count, length / (count - 1)
     spread = 10.0 ** -len(re.sub(r"e.*|\D", "", number.lower()).lstrip("0") or "0")
@@ -129,5 +130,5 @@ def _steps(number, unit, count):
 
 
 def _digits(value, spread):
-    """How many digits it has, as far as a length with that relative error says; ROUND + 1 of more."""
+    """Number of digits of a value, given its relative error `spread`; ROUND + 1 if it has more."""
     return next((n for n in range(1, ROUND + 1) if math.isclose(float(f"{value:.{n - 1}e}"), value, rel_tol=spread)), ROUND + 1)

@@ -1,4 +1,4 @@
-"""Heights in a text file as instruments export them: header, marks of points that were not measured, columns between marks."""
+"""Heights in text files of instruments: header, marks of unmeasured points, separators of columns."""
 
 import re
 from dataclasses import dataclass, replace
@@ -19,9 +19,9 @@ NUMBER = re.compile(r"^\s*\d+\s*=")
 
 @dataclass(frozen=True)
 class Table:
-    """values: heights (rows, columns) in the unit of the file, nan where nothing was measured; stated: what the file says of
-    its unit and distances; header_lines: lines before the first row; inside: number of lines that begin with # after it (none
-    of files that are no text)."""
+    """values: heights (rows, columns) in the unit of the file, nan if not measured; stated: its unit and distances;
+    header_lines: lines before the first row; inside: number of comment lines (#) after it (none for binary files).
+    """
 
     values: np.ndarray
     stated: Stated = Stated()
@@ -31,7 +31,7 @@ class Table:
     spacing: tuple = (None, None)
 
     def without_coordinates(self):
-        """Table with the heights alone, of a line profile in one row; beside, spacing: as of a grid."""
+        """Table of the heights alone, of a line profile in one row; see :meth:`_grid`."""
         found = line_profiles.heights_of(self.values)
         if found is None:
             return self._grid()
@@ -39,7 +39,7 @@ class Table:
         return replace(self, values=heights, beside=beside, spacing=(step, None))._with_stated()
 
     def of_points(self):
-        """Heights of a list of points, as a grid; None where they lie on none."""
+        """Grid of a list of points; None if they lie on no grid."""
         found = point_lists.grid_of(self.values, stated_values.column_names(self.header_lines))
         if found is None:
             return None
@@ -47,13 +47,14 @@ class Table:
         return replace(self, values=heights, beside=("x and y of a list of points",), spacing=(x, y))._with_stated()
 
     def _grid(self):
-        """Table with the heights alone; beside: the coordinates that were removed, in words; spacing: theirs, (along a
-        row, from row to row), None where there are none."""
+        """Table of the heights alone; beside: description of the removed coordinates; spacing: their distances (along a row,
+        from row to row), None without any.
+        """
         found = coordinates.without(self.values)
         return replace(self, values=found.heights, beside=found.found_lines, spacing=(found.x, found.y))._with_stated()
 
     def _with_stated(self):
-        """Table with the values that its header states, if it has one."""
+        """Table with the values that its header states."""
         stated = stated_values.in_header(self.header_lines, self.values.shape) if self.header_lines else self.stated
         return replace(self, stated=stated.with_spacing(self.spacing))
 
@@ -66,8 +67,9 @@ class Table:
 
 
 def read(path):
-    """The :class:`Table` of a text file. Raises ValueError that names the line: a word among the heights, a row with more or
-    fewer columns than the first, no row at all."""
+    """Read the :class:`Table` of a text file. Raises ValueError with the line: a word among the heights, a row of another
+    length than the first, no row at all.
+    """
     with path.open(encoding=_encoding(path), errors="replace") as file:  # headers have other encodings of a micro sign
         lines = [(number, line.rstrip("\r\n ")) for number, line in enumerate(file, 1) if line.strip(" \r\n")]
     numbered = _section([(number, line.split("#")[0]) for number, line in lines if not line.startswith("#")])
@@ -81,7 +83,7 @@ def read(path):
 
 
 def _encoding(path):
-    """Encoding by the first bytes: UTF-16 has a mark, or every second byte is zero."""
+    """Encoding by the first bytes: UTF-16 has a mark, or zero in every second byte."""
     with path.open("rb") as file:
         first = file.read(4)
     if first[:2] in (b"\xff\xfe", b"\xfe\xff"):
@@ -90,8 +92,7 @@ def _encoding(path):
 
 
 def _section(lines):
-    """Lines of a file; of one with a section of the values of a profile these lines, without their numbers, and the header
-    before."""
+    """Lines of a file; if it has a section of profile values, those lines without their numbers, and the header before."""
     begins = next((index for index, (_, line) in enumerate(lines) if line.strip().lower() == SECTION), None)
     if begins is None:
         return lines
@@ -100,7 +101,7 @@ def _section(lines):
 
 
 def _first_row(lines):
-    """(index of the first line that is a row of heights, mark between its columns)."""
+    """(index of the first line that is a row of heights, separator of its columns)."""
     for index, (_, line) in enumerate(lines):
         for mark in (mark for mark in COLUMNS if mark is None or mark in line):
             words = _words(line, mark)
@@ -110,7 +111,9 @@ def _first_row(lines):
 
 
 def _between(lines, mark):
-    """None for a comma that is the decimal comma of a column: whole numbers before and behind it that do not rise."""
+    """Separator of columns, but None if it is the decimal comma of a single column: whole numbers before and after it that do
+    not rise.
+    """
     if mark != ",":
         return mark
     pairs = [line.split(",") for _, line in lines]
@@ -121,7 +124,9 @@ def _between(lines, mark):
 
 
 def _check_header(header, first, mark):
-    """Raises ValueError for a line with as many columns as the first row and numbers in most: a row with a wrong word."""
+    """Raise ValueError for a header line that looks like a row with a wrong word: as many columns as the first row, mostly
+    numbers.
+    """
     columns = len(_words(first[1], mark))
     for number, line in header:
         words = _words(line, mark)
@@ -130,7 +135,7 @@ def _check_header(header, first, mark):
 
 
 def _rows(lines, mark):
-    """(rows of heights, whether the mark ends every one of them: nothing is behind it then)."""
+    """(rows of heights, whether a separator ends every row)."""
     rows, ended = [], mark is not None
     for number, line in lines:
         rows.append(_row(number, _words(line, mark)))
@@ -141,14 +146,14 @@ def _rows(lines, mark):
 
 
 def _words(line, mark):
-    """Columns of a line; with semicolons, tabs or blanks numbers may have decimal commas."""
+    """Columns of a line; if the separator is no comma, numbers may have decimal commas."""
     line = line if mark == "," else line.replace(",", ".")
     words = line.split(mark) if mark else _joined(line).split()
     return ["nan", *words[1:]] if _has_corner(words) else words
 
 
 def _has_corner(words):
-    """Whether they are coordinates behind the name of their corner, as 'y/x, 0, 1, 2, ...'."""
+    """Whether a line holds coordinates after the name of its corner, such as 'y/x, 0, 1, 2, ...'."""
     if len(words) < 5 or _is_height(words[0]):
         return False
     try:
@@ -158,7 +163,7 @@ def _has_corner(words):
 
 
 def _joined(line):
-    """The line, with marks of two words as one."""
+    """The line, with marks of two words joined to one."""
     low = line.lower()
     for two, one in SPLIT.items():
         low = low.replace(two, one)
@@ -166,7 +171,7 @@ def _joined(line):
 
 
 def _row(number, words):
-    """Heights of the columns of line `number`. Raises ValueError."""
+    """Heights in the columns of line `number`. Raises ValueError."""
     try:
         return np.array(words, dtype=float)
     except ValueError:

@@ -1,4 +1,4 @@
-"""A bump or dent."""
+"""A bump or dent with the profile of a cosine."""
 
 import math
 

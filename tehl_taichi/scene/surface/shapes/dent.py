@@ -20,7 +20,7 @@ class Rim:
 
 class Dent(Shape):
     def height(self, f, x, y):
-        """A cosine dent within width/2, around it a ring whose section is one cycle of a cosine; slopes are continuous."""
+        """Cosine dent within width/2, surrounded by a ring whose section is one period of a cosine; slopes are continuous."""
         r, edge, wide = np.hypot(x, y), f.width / 2, self.rim_width(f)
         inside = 0.5 * f.height * (1 + np.cos(2 * np.pi * r / f.width))
         ring = 0.5 * f.rim * (1 - np.cos(2 * np.pi * (r - edge) / wide))

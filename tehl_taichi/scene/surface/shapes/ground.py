@@ -18,8 +18,9 @@ class Ground(RandomWaves):
         return tuple(map(_lengths, (f.width, f.length or f.width)))
 
     def waves(self, f, x, y):
-        """Product waves of equal power per octave along x and along y with random phases; Ra = height, also on y = 0, where a
-        sum of even cosines would have twice the mean square."""
+        """Product waves of equal power per octave along x and y with random phases; Ra = height, also along y = 0, where a sum
+        of even cosines would have twice the mean square.
+        """
         rng = np.random.default_rng(f.seed)
         (k_x, k_y), (along_x, along_y) = (2 * np.pi / lengths for lengths in self.lengths(f)), self.kept(f)
         phase_x, phase_y = rng.uniform(0, 2 * np.pi, (2, k_x.size, k_y.size)) * [[[1.0]], [[float(k_y[0] > 0)]]]
@@ -39,12 +40,12 @@ class Ground(RandomWaves):
 
 
 def _lengths(shortest):
-    """Wavelengths from the longest to the shortest; one without end where nothing varies."""
+    """Wavelengths from the longest to the shortest; inf if nothing varies."""
     return np.array([math.inf]) if math.isinf(shortest) else np.geomspace(LONGEST * shortest, shortest, MODES)
 
 
 def Ra_of_many(**keys):
-    """Mean of |z| at 20 000 places far apart of waves that continue without end."""
+    """Check value: mean of |z| at 20 000 distant places of waves without end."""
     x, y = np.random.default_rng(3).uniform(-1.0, 1.0, (2, 20000))
     f = SimpleNamespace(seed=1, width=40e-6, height=0.3e-6, shortest_x=0.0, shortest_y=0.0, **keys)
     return float(np.mean(np.abs(GROUND.waves(f, x, y))))

@@ -22,7 +22,7 @@ class Map(Patch):
     lies_name = "turned"  # heading of what `lies` says
 
     def height(self, f, x, y):
-        """Levelled, linear between its points, within its patch."""
+        """Levelled heights, linear between the points, within the patch."""
         values = f.whole_heights
         rows, columns = values.shape
         i = np.clip(x / f.steps[0] + (columns - 1) / 2, 0, columns - 1) + 0 * y
@@ -41,7 +41,7 @@ class Map(Patch):
         return tuple(extent or size for extent, size in zip((f.extent_x, f.extent_y), f.size))
 
     def finest(self, f):
-        """(along x, along y): distances of points that show all of it, inf where nothing varies."""
+        """Distances (along x, along y) of points that resolve the map; inf along an axis without variation."""
         return tuple(step if count > 1 else math.inf for step, count in zip(f.steps, f.points))
 
     def across(self, f):
@@ -76,7 +76,7 @@ class Map(Patch):
             object.__setattr__(f, "unit", f.unit.translate(MICRO))
 
     def check(self, f):
-        """Read the heights, or find those of the sha256; the file's place is kept whole."""
+        """Read the heights, or find those of the sha256; the path of the file becomes absolute."""
         if f.file:
             object.__setattr__(f, "file", os.path.abspath(f.file))
         sha256, heights = height_map.fetch(f.file, f.sha256)
@@ -89,7 +89,7 @@ class Map(Patch):
         super().check(f)
 
     def check_rows(self, f):
-        """Refuse heights of a line."""
+        """Refuse heights of a line profile."""
         if height_map.is_profile(f.heights):
             raise SceneError(f"feature.file = {f.file!r} is a line profile of {f.heights.size} heights; set feature.shape = "
                              "'profile', and feature.lay where its marks lie along x")
@@ -121,7 +121,7 @@ def _check_keys(f):
 
 
 def _check_offset(f, key, room):
-    """Refuse a part that reaches beyond the heights; room: their size less that of the part, m."""
+    """Refuse a part that extends beyond the heights; room: size of the heights minus that of the part, m."""
     if abs(getattr(f, key)) > room / 2 + 1e-9:
         raise SceneError(f"feature.{key} = {getattr(f, key):g} m moves the part beyond the heights of the file; allowed: at "
                          f"most {max(room, 0.0) / 2:.4g} m to each side (feature.{key.replace('offset', 'extent')} makes the "

@@ -10,11 +10,11 @@ from tehl_taichi.scene.surface.shape import Shape
 
 class Patch(Shape):
     def patch(self, f):
-        """(length along x, along y) of the rectangle."""
+        """Size (along x, along y) of the rectangle."""
         return f.extent_x, f.extent_y or math.inf
 
     def check(self, f):
-        """Refuse a taper that leaves no height of the patch as it is: half of its shorter side."""
+        """Refuse a taper that leaves no unchanged height: at most half of the shorter side."""
         short = min(self.patch(f))
         if f.taper > short / 2 * (1 + 1e-9):
             key = "extent_x" if short == self.patch(f)[0] else "extent_y"

@@ -19,7 +19,7 @@ LAYS = {"transverse": "heights over x, the rolling direction, constant along y",
 
 @dataclass(frozen=True)
 class Lay:
-    """Its own key."""
+    """Key of line profiles only."""
 
     lay: str = choice("transverse", f"profile: how the marks of the surface lie; {'; '.join(map(': '.join, LAYS.items()))}",
                       tuple(LAYS))
@@ -29,7 +29,7 @@ class Profile(Map):
     lies_name = "lay"
 
     def height(self, f, x, y):
-        """Levelled, linear between its points, within its patch."""
+        """Levelled heights, linear between the points, within the patch."""
         at, axis = (y, 1) if self.across(f) else (x, 0)
         values = f.whole_heights.ravel()
         places = (np.arange(values.size) - (values.size - 1) / 2) * f.steps[axis]
@@ -39,7 +39,9 @@ class Profile(Map):
         return f.lay == "longitudinal"
 
     def patch(self, f):
-        """A profile along x has no end along y, one along y is as long as wide, where nothing else is given."""
+        """Size (along x, along y) of the patch; by default a profile along x has no end along y, one along y is as long as
+        wide.
+        """
         length = max(f.size)
         return f.extent_x or length, f.extent_y or (length if self.across(f) else math.inf)
 

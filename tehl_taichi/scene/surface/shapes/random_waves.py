@@ -1,4 +1,4 @@
-"""Base of the shapes that are sums of many waves with random phases, of which a coarse grid sees the long ones."""
+"""Base of shapes that are sums of many waves with random phases; a coarse grid resolves only the long ones."""
 
 from dataclasses import dataclass, replace
 
@@ -16,7 +16,7 @@ SLACK = 1 + 1e-9  # a wave of exactly the shortest length stays
 
 @dataclass(frozen=True)
 class Random:
-    """Keys of their own."""
+    """Keys of random waves only."""
 
     seed: int = count(1, "rough, ground: seed of the random numbers", 0, 2**31)
     shortest_x: float = quantity(0.0, "m", "rough, ground: waves along x shorter than this are left out; the others keep their "
@@ -28,23 +28,23 @@ class RandomWaves(Patch):
     rough = True
 
     def lengths(self, f):
-        """Wavelengths along x, along y, the longest first; inf of one that does not vary."""
+        """Wavelengths along x and along y, the longest first; inf without variation."""
         raise NotImplementedError(f"{self.name} has no waves")
 
     def waves(self, f, x, y):
-        """Heights without the rim of the patch."""
+        """Heights before fading at the rim of the patch."""
         raise NotImplementedError(f"{self.name} has no waves")
 
     def height(self, f, x, y):
         return self.waves(f, x, y) * self.window(f, x, y)
 
     def kept(self, f):
-        """(indices along x, along y) of the waves that are not left out."""
+        """Indices (along x, along y) of the waves that are kept."""
         return [np.flatnonzero(lengths * SLACK >= least)
                 for lengths, least in zip(self.lengths(f), (f.shortest_x, f.shortest_y))]
 
     def shortest(self, f):
-        """The shortest waves that are left along x, along y."""
+        """Shortest kept waves along x and along y."""
         return [float(lengths[kept].min()) for lengths, kept in zip(self.lengths(f), self.kept(f))]
 
     def finest(self, f):
@@ -57,7 +57,7 @@ class RandomWaves(Patch):
         return replace(f, shortest_x=max(f.shortest_x, x), shortest_y=max(f.shortest_y, y))
 
     def check(self, f):
-        """Refuse a patch without a length, and one that no wave is left of."""
+        """Refuse a patch without a length, and one without waves."""
         needs_patch(f)
         for name, lengths in zip("xy", self.lengths(f)):
             if getattr(f, f"shortest_{name}") > lengths.max() * SLACK:

@@ -1,4 +1,4 @@
-"""A transverse ridge, the same for every y."""
+"""A transverse ridge, constant along y."""
 
 import numpy as np
 

@@ -10,7 +10,7 @@ from tehl_taichi.values.registry import Checked
 
 class Rough(RandomWaves):
     def lengths(self, f):
-        """Up to the length of the patch."""
+        """Wavelengths up to the length of the patch."""
         return (np.geomspace(max(f.extent_x, 2 * f.width), f.width, MODES),) * 2
 
     def waves(self, f, x, y):
@@ -28,7 +28,7 @@ class Rough(RandomWaves):
 
 
 def rms_of_many():
-    """rms at 20 000 places far apart of waves that continue without end."""
+    """Check value: rms at 20 000 distant places of waves without end."""
     places = np.random.default_rng(3).uniform(-1.0, 1.0, (2, 20000))
     f = SimpleNamespace(seed=1, extent_x=500e-6, width=40e-6, height=0.2e-6, shortest_x=0.0, shortest_y=0.0)
     return float(np.sqrt(np.mean(ROUGH.waves(f, *places) ** 2)))
