@@ -1,8 +1,8 @@
-"""Coarse-grid runs beside their run: in a process of their own, on cores that a long run leaves idle; else after it, in its
+"""Coarse-grid runs in the background: in another process on idle cores during a long run; otherwise after the run, in its
 process.
 
-Default gear on one of two cores, s, medians of three in turn: 45.5 without bars, 49.2 with them after it, 43.1 beside it; on
-both cores a process beside the run takes more than they do after it (67.5 against 59.7).
+Default gear on one of two cores, s, medians of three in turn: 45.5 without error bars, 49.2 with them after the run, 43.1
+during it. On both cores a background process takes longer than the same work after the run (67.5 against 59.7).
 """
 
 import contextlib
@@ -28,20 +28,23 @@ LONG, HEAVIER = 5e6, 5.0  # with temperatures a step takes so many times as long
 
 
 def idle():
-    """Cores without work: none in a worker of a study, beside which others work."""
+    """Number of idle cores: 0 in a worker of a study, because the other workers use them."""
     return 0 if job.working() else cores.available() - runtime.ensure()["threads"]
 
 
 def lasts(scene):
-    """Whether a run is long."""
+    """Whether a run takes long."""
     return coarse_runs.work(scene) * (1.0 if scene.isothermal else HEAVIER) >= LONG
 
 
 @contextlib.contextmanager
 def background_answers(scene):
-    """A function of `until` (what :func:`tehl_taichi.march.accuracy.coarse_runs.resolved` gives of the run, once it is known)
-    for the function of notify(done, total) that waits for what :func:`tehl_taichi.march.accuracy.coarse_runs.answers` gives of
-    a scene. They begin now where the run is long and a core idle, and end with the context."""
+    """Context manager: start the coarse-grid runs of a scene, in the background if the run is long and a core is idle.
+
+    Gives a function of `until` (the result of :func:`tehl_taichi.march.accuracy.coarse_runs.resolved`, once it is known). That
+    returns a function of notify(done, total), which waits for the result of
+    :func:`tehl_taichi.march.accuracy.coarse_runs.answers`. The background process ends with the context.
+    """
     if not (coarse_runs.has_coarse_runs(scene) and lasts(scene) and idle() > 0):
         yield lambda until: functools.partial(coarse_runs.answers, scene, until=lambda: until)
         return
@@ -55,7 +58,7 @@ def background_answers(scene):
 
 
 def _started(scene, read, threads):
-    """Start the processes on no more threads than the run has: with more the run waited for them (8 of 16 cores)."""
+    """Start the process with at most as many threads as the run has; with more the run had to wait (8 of 16 cores)."""
     with tempfile.TemporaryFile() as scenes:
         pickle.dump((os.getpid(), read, scene, threads), scenes)
         scenes.seek(0)
@@ -66,7 +69,7 @@ def _started(scene, read, threads):
 
 
 def _wait_for(process, word, scene, until):
-    """Wait for the results of the process; it gets `until` first."""
+    """Send `until` to the process, and return a function that waits for its result."""
     with contextlib.suppress(OSError):  # it died
         word.write(json.dumps(until).encode())
     word.close()
@@ -74,7 +77,7 @@ def _wait_for(process, word, scene, until):
 
 
 def _ready(process, scene, until, notify=lambda done, total: None):
-    """Their answers; where their process died, worked out here."""
+    """Result of the process; if it died, computed here."""
     notify(0, 1)
     while (text := _output_of(process)) is None:
         notify(0, 1)
@@ -93,8 +96,11 @@ def _output_of(process):
 
 
 def serve():
-    """The process: the number of the run's process, that of the pipe by which `until` comes once it is known, the scene and the
-    number of threads come by stdin, the answers go to stdout."""
+    """Main function of the background process.
+
+    It reads from stdin the number of the run's process, the pipe for `until`, the scene and the number of threads, and writes
+    its results to stdout.
+    """
     run, pipe, scene, threads = pickle.load(sys.stdin.buffer)
     threading.Thread(target=_end_with, args=(run,), daemon=True).start()
     runtime.start(threads=threads)

@@ -1,4 +1,4 @@
-"""Runs side by side: what differs of their scenes, their summaries, one figure of all."""
+"""Comparison of runs: differences of their scenes, their summaries, one common figure."""
 
 from dataclasses import dataclass
 from os import PathLike
@@ -25,12 +25,12 @@ OWN = ("store", "version", "scene", "left_out", "warnings", "warning_codes", "wa
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two or more runs side by side: :func:`tehl_taichi.compare` gives one.
+    """Comparison of two or more runs; :func:`tehl_taichi.compare` makes one.
 
     Attributes
     ----------
     stores : tuple of Store
-        The stores of the runs, in the given order.
+          The stores of the runs, in the given order.
 
     Examples
     --------
@@ -46,30 +46,28 @@ class Comparison:
 
     @property
     def names(self):
-        """Folder names, with as much of the path before as makes them differ."""
+        """Folder names, with as many parent folders as are needed to distinguish them."""
         return compare_labels.names([store.path for store in self.stores])
 
     @property
     def differs(self):
-        """{dotted key of the scene: its value in every run} of the keys that are not the same in all; None where a scene does
-        not have it."""
+        """{dotted key of the scene: its value in every run} of the keys that differ; None for a scene without the key."""
         return compare_labels.differs([flat(store.scene.to_dict()) for store in self.stores])
 
     @property
     def summaries(self):
-        """{dotted name, as in the JSON summary: its number in every run}; None where a run does not have it (yet)."""
+        """{dotted name, as in the JSON summary: its number in every run}; None for a run without it."""
         return compare_labels.side_by_side([flat(store.summary) for store in self.stores], _shown_values)
 
     @property
     def lines(self):
-        """The rows of `tehl show` for the summaries, a :class:`tehl_taichi.runs.compare_rows.ComparisonRow` for each
-        quantity."""
+        """Rows of `tehl show` for the summaries: one :class:`tehl_taichi.runs.compare_rows.ComparisonRow` per quantity."""
         from tehl_taichi.runs.compare_rows import lines
 
         return lines([store.summary for store in self.stores])
 
     def labels(self):
-        """A name for each run that says what is special about it: up to two values that differ, or its folder."""
+        """Label of each run: up to two values that differ, or its folder."""
         return compare_labels.labels(self.differs, [store.path for store in self.stores])
 
     def to_dict(self):
@@ -79,10 +77,9 @@ class Comparison:
 
     def plot(self, path: str | PathLike, at: float = 0.0, dpi: int = 160, format: str = "png", width: float = 17.0,
              force: bool = False) -> Path:
-        """The figure, with the feature at `at` half-widths where runs have one; returns its path.
+        """Write the figure, with the feature at `at` half-widths in runs with a feature; returns its path.
 
-        dpi, format (where the path has no suffix), width, force: as :meth:`Run.plot`. Raises SceneError,
-        StoreError.
+        dpi, format (if the path has no suffix), width, force: as :meth:`Run.plot`. Raises SceneError, StoreError.
         """
         from tehl_taichi.runs import compare_figure
         from tehl_taichi.view.figures.figure_style import FigureStyle
@@ -91,7 +88,7 @@ class Comparison:
 
 
 def compare(*paths: "str | PathLike | Run | Study | ContactSet") -> Union[Comparison, "PlaceComparison"]:
-    """As :func:`tehl_taichi.compare`."""
+    """Compare results: see :func:`tehl_taichi.compare`."""
     from tehl_taichi.runs.compare_places import PlaceComparison
     from tehl_taichi.store.store import Store
 
@@ -106,7 +103,7 @@ def compare(*paths: "str | PathLike | Run | Study | ContactSet") -> Union[Compar
 
 
 def _one_kind(folders):
-    """What all of them are. Raises SceneError where they are of two kinds, StoreError where one is nothing."""
+    """Common kind of all folders. Raises SceneError for different kinds, StoreError for a folder without results."""
     kinds = [kind(folder) for folder in folders]
     other = next((n for n, one in enumerate(kinds) if one != kinds[0]), None)
     if other is None:

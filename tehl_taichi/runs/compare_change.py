@@ -1,11 +1,11 @@
-"""The change from one number to another, held against their error bars."""
+"""Change between two numbers, compared with their error bars."""
 
 MANY = 9.0  # relative change from which a factor is read better than per cent
 NOT_SEPARATED = "not separated"  # the error bars of both numbers overlap
 
 
 def separated(first, second):
-    """Whether the error bars of two (value, error bar or None) leave a gap; None where an unknown bar decides."""
+    """Whether the error bars of two (value, error bar or None) do not overlap; None if an unknown bar decides."""
     bars = [error for _, error in (first, second) if error is not None]
     if bars and abs(second[0] - first[0]) <= sum(bars):
         return False
@@ -13,9 +13,9 @@ def separated(first, second):
 
 
 def change(first, second, nothing=0.0, unit=""):
-    """The change of two (value, error bar or None) in words: in %, as a factor, in K of temperatures (unit "degC").
+    """Text of the change between two (value, error bar or None): in %, as a factor, in K for temperatures (unit "degC").
 
-    NOT_SEPARATED where the bars overlap, "" where the first is nearly `nothing` or 0 within its bar, and of equal numbers.
+    NOT_SEPARATED if the bars overlap; "" if the first value is nearly `nothing` or 0 within its bar, and for equal numbers.
     """
     (a, error), (b, _) = first, second
     if a == b:

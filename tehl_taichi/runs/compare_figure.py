@@ -1,4 +1,4 @@
-"""One figure of several runs: their centrelines at one feature position, their histories, Fi through their worst points."""
+"""Common figure of several runs: centrelines at one feature position, histories, Fi through the worst points."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ FILM_ROOM = (-0.05, ROOM)  # of the largest central film
 
 @dataclass(frozen=True)
 class Curve:
-    """One run: its moments, label and colour; entry, row: what the lines along x show."""
+    """One run in the figure: its moments, label and colour; entry, row: of the lines along x."""
 
     moments: Moments
     label: str
@@ -42,7 +42,7 @@ class Curve:
 
 
 def write(comparison, path, at, page):
-    """Write the figure, as the :class:`FigureStyle` wants it; returns the path. at: position of the features, a."""
+    """Write the figure in the format of a :class:`FigureStyle`; returns the path. at: position of the features, a."""
     page, path = page.of_file(path)
     page.check(path)
     moments = [Moments(store) for store in comparison.stores]
@@ -53,8 +53,9 @@ def write(comparison, path, at, page):
 
 
 def _rows(moments, labels):
-    """(rows, labels, where in words): the row of each one's largest pressure, said with the label where they differ; y = 0 as
-    soon as one of them has nothing beside it, which the others are compared with."""
+    """(rows, labels, text of the place): the row with the largest pressure of each run, named in the label if rows differ; y =
+    0 for all if one run has only that row.
+    """
     if any(one.half for one in moments):
         return [one.row for one in moments], labels, "along y = 0"
     rows, places = [one.line for one in moments], [one.along for one in moments]
@@ -103,14 +104,14 @@ def _lines(curves):
 
 
 def _histories(curves):
-    """Panels of the passages; none where nothing passes."""
+    """Panels of the passages; none without a passage."""
     if not any(c.passes for c in curves):
         return []
     return [_largest_pressure, _least_film, *([_index] if any(c.store.map("Fi") is not None for c in curves) else [])]
 
 
 def _along(ax, curves, name, factor, **style):
-    """A field along x: over a, or in mm where the contacts differ in width."""
+    """Draw a field along x: in units of a, or in mm if the contacts differ in width."""
     widths = [c.a for c in curves]
     one = max(widths) - min(widths) <= SAME * max(widths)
     for c in curves:
@@ -156,7 +157,7 @@ def _least_film(ax, curves):
 
 
 def _index(ax, curves):
-    """Fi of the surface along x through the worst point of each run, which is marked."""
+    """Draw Fi of the surface along x through the worst point of each run, with a mark there."""
     for c in curves:
         Fi = c.store.map("Fi")
         if Fi is None:

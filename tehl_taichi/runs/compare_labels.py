@@ -10,7 +10,7 @@ TABLES = {f"fatigue.{rows}": key for key, rows in ROWS_OF.items()}  # contents o
 
 
 def names(paths):
-    """Folder names, with as much of the path before as makes them differ."""
+    """Folder names, with as many parent folders as are needed to distinguish them."""
     found = [Path(path).absolute() for path in paths]
     for parts in range(1, 20):
         short = ["/".join(path.parts[-parts:]) for path in found]
@@ -20,12 +20,12 @@ def names(paths):
 
 
 def differs(settings):
-    """{key: its value in every one} of the keys whose values differ; settings: a flat {key: value} of each."""
+    """{key: its value in every result} of the keys whose values differ; settings: a flat {key: value} per result."""
     return side_by_side(settings, lambda key, values: len(set(map(repr, values))) > 1 and not _of_no_matter(key))
 
 
 def labels(differing, paths):
-    """A name for each that says what is special about it: up to two values that differ, or its folder."""
+    """Label of each result: up to two values that differ, or its folder."""
     leading = [(key, values) for key, values in differing.items() if key != "note" and not follows(key, differing)]
     if not 1 <= len(leading) <= 2:
         return names(paths)
@@ -34,7 +34,7 @@ def labels(differing, paths):
 
 
 def flat(nested, above=""):
-    """{dotted key: value} of tables in tables; the tables of a list are numbered, other lists are values."""
+    """{dotted key: value} of nested tables; tables in a list are numbered, other lists are values."""
     out: dict[str, Any] = {}
     for key, value in nested.items():
         if isinstance(value, list) and value and isinstance(value[0], dict):
@@ -47,14 +47,14 @@ def flat(nested, above=""):
 
 
 def side_by_side(rows, kept):
-    """{key: its value in every row, None where it has none} of the keys that kept(key, values) chooses."""
+    """{key: its value in every row, None where missing} of the keys for which kept(key, values) holds."""
     keys = dict.fromkeys(key for row in rows for key in row)
     found = {key: [row.get(key) for row in rows] for key in keys}
     return {key: values for key, values in found.items() if kept(key, values)}
 
 
 def follows(key, differing):
-    """Numbers of oils and steels that their names bring, contents of a table with another name."""
+    """Whether a key follows from another differing key: numbers of a named oil or steel, contents of a named table."""
     if TABLES.get(key) in differing:
         return True
     named = f"{key.rpartition('.')[0]}.name", f"{key.rpartition('.')[0]}.material"
@@ -62,7 +62,7 @@ def follows(key, differing):
 
 
 def _of_no_matter(key):
-    """Names, and files whose heights are identified by their checksum."""
+    """Whether a key has no influence: names, and files whose heights are identified by their checksum."""
     return key == "name" or key.endswith(".file")
 
 

@@ -1,4 +1,4 @@
-"""Flanks, bearings, cams and studies side by side: what differs, a table by position, one figure over one axis."""
+"""Comparison of flanks, bearings, cams and studies: differing settings, a table by position, one figure over one axis."""
 
 import math
 from dataclasses import dataclass
@@ -19,8 +19,9 @@ UNKNOWN = " (error unknown)"  # behind a change of two numbers, one of them at l
 
 @dataclass(frozen=True)
 class PlaceRow:
-    """A quantity at a place. name: as in tables and JSON; numbers: (value, error bar or None) of each, None where it has
-    none."""
+    """A quantity at a place. name: as in tables and JSON; numbers: (value, error bar or None) of each result, None where
+    missing.
+    """
 
     name: str
     quantity: place_table.PlaceQuantity
@@ -29,7 +30,7 @@ class PlaceRow:
 
     @property
     def texts(self):
-        """The numbers as they are printed."""
+        """Printed texts of the numbers."""
         return tuple(NONE if one is None else self._text(*one) for one in self.numbers)
 
     def _text(self, value, error):
@@ -38,14 +39,14 @@ class PlaceRow:
 
     @property
     def change(self):
-        """The change of two numbers in words, "" where it means nothing."""
+        """Text of the change between two numbers, "" if it has no meaning."""
         if len(self.numbers) != 2 or None in self.numbers:
             return ""
         words = change(*self.numbers, nothing_of(self.name), unit_of(self.name))
         return words + UNKNOWN * bool(words and self.quantity.barred and separated(*self.numbers) is None)
 
     def to_dict(self):
-        """Its entry in the JSON object."""
+        """Entry in the JSON object."""
         pair = len(self.numbers) == 2 and None not in self.numbers
         values, errors = zip(*(one or (None, None) for one in self.numbers))
         return {"quantity": self.name, "at": self.place.words, "values": list(values), "errors": list(errors),
@@ -54,14 +55,14 @@ class PlaceRow:
 
 @dataclass(frozen=True)
 class PlaceComparison:
-    """Flanks, bearings, cams or studies side by side: :func:`tehl_taichi.compare` gives one.
+    """Comparison of flanks, bearings, cams or studies; :func:`tehl_taichi.compare` makes one.
 
     Attributes
     ----------
     kind : str
-        "flank", "bearing", "cam" or "study".
+          "flank", "bearing", "cam" or "study".
     tables : tuple
-        The numbers of each by position, in the given order.
+          The numbers of each by position, in the given order.
 
     Examples
     --------
@@ -86,33 +87,34 @@ class PlaceComparison:
 
     @property
     def names(self) -> list:
-        """Folder names, with as much of the path before as makes them differ."""
+        """Folder names, with as many parent folders as are needed to distinguish them."""
         return compare_labels.names([table.folder for table in self.tables])
 
     @cached_property
     def differs(self) -> dict:
         """{dotted key: its value in each} of the settings that differ; contacts and speeds of single positions are in
-        :attr:`rows`."""
+        :attr:`rows`.
+        """
         return compare_labels.differs(place_table.settings(self.tables))
 
     def labels(self) -> list:
-        """A name for each that says what is special about it: up to two values that differ, or its folder."""
+        """Label of each result: up to two values that differ, or its folder."""
         return compare_labels.labels(self.differs, [table.folder for table in self.tables])
 
     @cached_property
     def places(self) -> list:
-        """The places of all, along their axis."""
+        """All places, sorted along their axis."""
         known = {place.key: place for table in reversed(self.tables) for place in table.places}
         found = [known[key] for key in in_order([[place.key for place in table.places] for table in self.tables])]
         return found if self.tables[0].ticks else sorted(found, key=lambda place: place.x)
 
     def x_of(self, place):
-        """Where a place is on the axis."""
+        """Coordinate of a place on the axis."""
         return float([one.key for one in self.places].index(place.key)) if self.tables[0].ticks else place.x
 
     @cached_property
     def quantities(self) -> dict:
-        """{name: quantity} of all that have numbers."""
+        """{name: quantity} of all quantities with numbers."""
         known = {name: one for table in reversed(self.tables) for name, one in table.quantities.items()}
         order = in_order([list(table.quantities) for table in self.tables])
         numbered = {name for table in self.tables for name, _ in table.numbers}
@@ -120,24 +122,25 @@ class PlaceComparison:
 
     @cached_property
     def rows(self) -> list:
-        """A :class:`PlaceRow` for each quantity at each place that has it somewhere."""
+        """One :class:`PlaceRow` for each quantity at each place where any result has it."""
         rows = (PlaceRow(name, quantity, place, tuple(table.numbers.get((name, place.key)) for table in self.tables))
                 for name, quantity in self.quantities.items() for place in self.places)
         return [row for row in rows if any(row.numbers)]
 
     def unequal(self) -> list:
-        """Names of the quantities that differ somewhere, as they are printed, or that one of the results does not have."""
+        """Printed names of the quantities that differ somewhere or that one of the results lacks."""
         missing = {name for name in self.quantities for table in self.tables if name not in {one for one, _ in table.numbers}}
         return list(dict.fromkeys(row.name for row in self.rows
                                   if row.name in missing or len(set(row.texts) - {NONE}) > 1))
 
     def without_result(self) -> dict:
-        """{name of a result: words of its places without one} where there are any."""
+        """{name of a result: texts of its places without a result}, for results with such places."""
         return {name: list(table.failed) for name, table in zip(self.names, self.tables) if table.failed}
 
     def line(self, table, name):
-        """(x, values, error bars or None), in the printed unit, of a quantity along a table; nan between both sides of a
-        jump."""
+        """(x, values, error bars or None) of a quantity along a table, in the printed unit; nan between both sides of a
+        jump.
+        """
         out: list[tuple[float, float, float]] = []
         factor = self.quantities[name].factor
         for place in table.places:
@@ -154,7 +157,7 @@ class PlaceComparison:
 
     def plot(self, path: str | PathLike, dpi: int = 160, format: str = "png", width: float = 17.0,
              force: bool = False) -> Path:
-        """The figure; returns its path. dpi, format (where the path has no suffix), width, force: as :meth:`Run.plot`.
+        """Write the figure; returns its path. dpi, format (if the path has no suffix), width, force: as :meth:`Run.plot`.
 
         Raises SceneError, StoreError.
         """

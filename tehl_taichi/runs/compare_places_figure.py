@@ -1,4 +1,4 @@
-"""The figure of a comparison by position: a panel for each quantity, a line for each result, over one axis."""
+"""Figure of a comparison by position: one panel per quantity, one line per result, over one axis."""
 
 import itertools
 import textwrap
@@ -20,7 +20,7 @@ SPELLED = (("(um)", "(µm)"), ("deg C", "°C"), ("lambda", "λ"))
 
 
 def write(comparison, path, page):
-    """Write the figure, as the :class:`FigureStyle` says; returns the path."""
+    """Write the figure in the format of a :class:`FigureStyle`; returns the path."""
     page, path = page.of_file(path)
     page.check(path)
     if not (shown := panels(comparison)):
@@ -29,7 +29,7 @@ def write(comparison, path, page):
 
 
 def panels(comparison):
-    """Names of the quantities that are drawn: the first of each line that any of the results has."""
+    """Names of the drawn quantities: for each line, the first that any result has."""
     lines = comparison.tables[0].drawn
     found = (next((name for name in names if name in comparison.quantities), None) for names in lines)
     return [name for name in found if name][:MOST]
@@ -50,7 +50,7 @@ def drawn(page, comparison, shown):
 
 
 def _panel(ax, comparison, name):
-    """A line with error bars for each result."""
+    """Draw a line with error bars for each result."""
     factor, _ = _axis(comparison)
     for table, label, colour in zip(comparison.tables, comparison.labels(), palette.LINES):
         x, y, error = map(np.array, comparison.line(table, name))
@@ -62,7 +62,7 @@ def _panel(ax, comparison, name):
 
 
 def _label(quantity):
-    """The label of an axis, on two lines where it is long."""
+    """Label of an axis, on two lines if it is long."""
     text = f"{quantity.label} ({quantity.unit})" if quantity.unit else quantity.label
     for plain, spelled in SPELLED:
         text = text.replace(plain, spelled)
@@ -77,7 +77,7 @@ def _axis(comparison):
 
 
 def _dress(ax, comparison):
-    """The label of the lowest axis, and the names of the places where these are no numbers."""
+    """Label the lowest axis; names of places in place of numbers if they have names."""
     ax.set_xlabel(_axis(comparison)[1])
     ax.tick_params(labelbottom=True)
     if comparison.tables[0].ticks:

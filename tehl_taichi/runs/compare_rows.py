@@ -1,4 +1,4 @@
-"""Differences of the results of runs, in the words of their summaries: rows with a value for each run."""
+"""Differences between the results of runs, in the terms of their summaries: rows with a value per run."""
 
 from dataclasses import dataclass
 
@@ -10,8 +10,7 @@ NONE = "-"  # of a run that has no such value (yet)
 
 @dataclass(frozen=True)
 class ComparisonRow:
-    """what: the quantity; values: a text for each run; change: of two runs, "" where it means
-    nothing."""
+    """what: the quantity; values: a text for each run; change: between two runs, "" if it has no meaning."""
 
     what: str
     values: tuple
@@ -23,15 +22,14 @@ class ComparisonRow:
 
 
 def lines(summaries):
-    """A list of :class:`ComparisonRow` of the summaries of runs ({} of one that is not finished), in the order of `tehl
-    show`."""
+    """List of :class:`ComparisonRow` of the summaries of runs ({} for an unfinished one), in the order of `tehl show`."""
     runs = [{(row.part, row.what): row for row in rows_of(summary)} if summary else {} for summary in summaries]
     keys = in_order([list(run) for run in runs])
     return [_line(what, [run.get(key) for run in runs]) for key, what in zip(keys, _distinguished(keys))]
 
 
 def _distinguished(keys):
-    """Quantities of (part, quantity), with the part where the same stood before."""
+    """Texts of the quantities (part, quantity), with the part if the quantity occurs in an earlier part."""
     seen = set()
     for part, what in keys:
         yield f"{what}, {part}" if what in seen else what
@@ -39,7 +37,7 @@ def _distinguished(keys):
 
 
 def in_order(lists):
-    """Every key once: those of the first list, and others behind the key that they follow in theirs."""
+    """Every key once: those of the first list; others after the key that they follow in their list."""
     out = list(lists[0])
     for keys in lists[1:]:
         for n, key in enumerate(keys):
@@ -49,7 +47,7 @@ def in_order(lists):
 
 
 def _line(what, rows):
-    """rows: a SummaryRow for each run, or None; the position of their values is printed once where it is the same."""
+    """Row of a quantity. rows: a SummaryRow or None for each run; a common position of their values is printed once."""
     places = {row.where for row in rows if row}
     once = places.pop() if len(places) == 1 else None
     values = tuple(NONE if row is None else row.value + ("" if once is not None else row.where) for row in rows)
@@ -57,7 +55,7 @@ def _line(what, rows):
 
 
 def _change(rows):
-    """Change from the first number to the second, in words."""
+    """Text of the change from the first number to the second."""
     if len(rows) != 2 or any(row is None or row.number is None for row in rows):
         return ""
     first, second = rows

@@ -1,4 +1,4 @@
-"""Several contacts and their results as a folder keeps them: one JSON object, its table, its figure."""
+"""Stored sets of contacts: a folder with one JSON object, its table, its figure."""
 
 import contextlib
 import json
@@ -16,8 +16,7 @@ from tehl_taichi.errors import StoreError
 class ContactSet:
     """Base of flanks, bearings and cams. folder; record: the JSON object of `tehl KIND --json`.
 
-    A class of them has its KIND, which names command and files, the TABLES inside its record, its :meth:`_csv` and
-    :meth:`_drawn`.
+    A subclass has a KIND, which names its command and files, the TABLES in its record, a :meth:`_csv` and a :meth:`_drawn`.
     """
 
     folder: Path
@@ -28,7 +27,7 @@ class ContactSet:
 
     @classmethod
     def open(cls, folder: str | PathLike) -> Self:
-        """The one in a folder. Raises StoreError."""
+        """Open the set in a folder. Raises StoreError."""
         file = cls._file(folder)
         try:
             record = files.json_of(file)
@@ -48,12 +47,12 @@ class ContactSet:
 
     @classmethod
     def lies_in(cls, folder: str | PathLike) -> bool:
-        """Whether the results of one lie in the folder."""
+        """Whether the folder contains results of this kind."""
         return cls._file(folder).is_file()
 
     @classmethod
     def check_writable(cls, folder: Path) -> None:
-        """Raises StoreError where none can be made in `folder`, nor one in it be resumed."""
+        """Raise StoreError if no set can be made or resumed in `folder`."""
         user_files.check_outside(folder)
         if not os.path.lexists(folder):
             return
@@ -66,16 +65,16 @@ class ContactSet:
 
     @classmethod
     def _check_free(cls, folder):
-        """Refuse a folder in which something else lies."""
+        """Refuse a folder with other contents."""
         if any(Path(folder).iterdir()):
             raise StoreError(f"{folder} exists and is not the folder of a {cls.KIND}; choose another --out")
 
     def _complete(self):
-        """Read what a record may lack, which raises what that raises."""
+        """Access all values that a damaged record may lack, so that their errors are raised."""
         self._csv()
 
     def _csv(self) -> str:
-        """The table as CSV."""
+        """CSV text of the table."""
         raise NotImplementedError
 
     @property
@@ -84,15 +83,15 @@ class ContactSet:
 
     @property
     def _contacts(self) -> list:
-        """Entries of the record, one for each contact, with its "store"."""
+        """Entries of the record, one per contact, with its "store"."""
         raise NotImplementedError
 
     def stores(self) -> list:
-        """The :meth:`store_of` each contact that has one."""
+        """Stores of all contacts that have one."""
         return [store for n in range(len(self._contacts)) if (store := self.store_of(n))]
 
     def store_of(self, number: int) -> Any:
-        """The readable :class:`tehl_taichi.store.store.Store` of a contact, None where it has none."""
+        """The readable :class:`tehl_taichi.store.store.Store` of a contact, or None."""
         from tehl_taichi.store.store import Store
 
         path = self.folder / Path(self._contacts[number].get("store") or "none").name
@@ -105,7 +104,9 @@ class ContactSet:
         return self.record
 
     def write(self) -> list:
-        """JSON object and table into the folder, under the name of the command; returns their paths. Raises StoreError."""
+        """Write the JSON object and the table into the folder, named after the command; returns their paths. Raises
+        StoreError.
+        """
         texts = {self._file(self.folder): json.dumps(self.record, indent=1, allow_nan=False),
                  self.folder / f"{self.KIND}.csv": self._csv()}
         with files.blamed(self.folder, "cannot write to"):
@@ -116,10 +117,10 @@ class ContactSet:
 
     def plot(self, path: str | PathLike | None = None, dpi: int = 160, format: str = "png", width: float = 17.0,
              force: bool = False) -> Path:
-        """The figure (default: in the folder, under the name of the command); returns its path.
+        """Write the figure (default: in the folder, named after the command); returns its path.
 
-        dpi, format (where the path has no suffix), width, force: as :meth:`Run.plot`. Raises SceneError, or StoreError without
-        matplotlib, or where something is in the way.
+        dpi, format (if the path has no suffix), width, force: as :meth:`Run.plot`. Raises SceneError; StoreError without
+        matplotlib, or if a file is in the way.
         """
         from tehl_taichi.view.figures import folder_figure
         from tehl_taichi.view.figures.figure_style import FigureStyle
@@ -133,11 +134,11 @@ class ContactSet:
 
 
 class PositionSet(ContactSet):
-    """Base of those whose contacts follow each other, as along a flank; a class of them reads one with :meth:`_position`."""
+    """Base of sets whose contacts form a sequence, as along a flank; a subclass reads one contact with :meth:`_position`."""
 
     @staticmethod
     def _position(one):
-        """The position of an entry of the record."""
+        """Position of an entry of the record."""
         raise NotImplementedError
 
     @property
@@ -151,5 +152,5 @@ class PositionSet(ContactSet):
 
     @property
     def failed(self) -> list:
-        """(position, reason) of those without a result."""
+        """(position, reason) of all without a result."""
         return [(self._position(one), one["reason"]) for one in self.record["positions"] if one["summary"] is None]

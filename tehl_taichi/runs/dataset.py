@@ -1,4 +1,4 @@
-"""A store as an xarray.Dataset with a coordinate for every dimension."""
+"""Store as an xarray.Dataset with a coordinate for every dimension."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ ALONG_TIME = ("feature_x", "step")  # series that say which moment it is
 
 
 def dataset(path):
-    """The store at `path`. Raises StoreError without xarray (the `xarray` extra)."""
+    """Open the store at `path` as a Dataset. Raises StoreError without xarray (the `xarray` extra)."""
     try:
         import xarray
     except ImportError:

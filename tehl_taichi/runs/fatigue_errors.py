@@ -1,8 +1,8 @@
-"""Error bars of a run's fatigue that is searched again.
+"""Error bars of a repeated fatigue search.
 
-The coarse-grid runs of a run answered the run's own question: their bars are not those of another kappa, criterion, window or
-stress. The fatigue limit is no part of the search, the index is the stress over it: with another one the relative error stays.
-So it does with other depths, where the same point is the worst.
+The coarse-grid runs belong to the search of the run; their bars do not hold for another kappa, criterion, window or stress. The
+fatigue limit is no part of the search: the index is stress over limit, so its relative error also holds for another limit. It
+also holds for other depths if the same point is the worst.
 """
 
 from dataclasses import asdict
@@ -22,8 +22,9 @@ SAME = 1e-6  # of the stress: the stored search and this one are the same
 
 
 def add_errors(searches, section, store):
-    """Put "error" and "unknown" into the parts of the summaries of searches, {surface: summary}. section: [fatigue]
-    that they were made with; store: of the run."""
+    """Add "error" and "unknown" to the summaries of searches, {surface: summary}. section: their [fatigue]; store: of the
+    run.
+    """
     own, stored = store.scene.fatigue, _parts(by_surface(store.summary))
     free = FREE if any(map(section.table_text, "ab")) else (*FREE, *OF_TABLES)
     alike = all(getattr(section, key) == value for key, value in asdict(own).items() if key not in free)
@@ -35,7 +36,7 @@ def add_errors(searches, section, store):
 
 
 def _add_to_von_mises(searches, stored):
-    """The error of a von Mises stress, where it is that of the stored search."""
+    """Add the error of a von Mises stress if the stored search has it."""
     before = von_mises_parts(stored)
     for name, part in von_mises_parts(searches).items():
         known = before.get(name, {})
@@ -51,7 +52,9 @@ def _parts(searches):
 
 
 def _scaled(part, before):
-    """({FI: bar or None}, {FI: why there is none}) of a part of a search; before: that of the stored search, {} of another."""
+    """({FI: bar or None}, {FI: reason if there is none}) of a part of a search; before: that part in the stored search, or
+    {}.
+    """
     stress = "findley_stress_max_Pa"
     if not before or abs(part[stress] - before[stress]) > SAME * abs(before[stress]):
         return {FI: None}, {FI: OTHER}

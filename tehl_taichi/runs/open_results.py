@@ -1,4 +1,4 @@
-"""One word that opens everything: a run's store, a study, a flank, a bearing, a cam."""
+"""Opening of any results folder: a run's store, a study, a flank, a bearing, a cam."""
 
 from functools import partial
 from os import PathLike
@@ -21,7 +21,9 @@ INSIDE = {STUDY: ("table.csv", "cases/NUMBER.zarr"), FLANK: ("flank.csv", "POSIT
 
 
 def kind(path: str | PathLike) -> str:
-    """What lies at `path`: "study", "flank", "bearing", "cam", or else "run", whether it is a good one or none at all."""
+    """Kind of the results at `path`: "study", "flank", "bearing", "cam", otherwise "run" (also for a damaged or missing
+    one).
+    """
     from tehl_taichi.runs.sweep.study_table import is_study
 
     if is_study(path):
@@ -30,7 +32,7 @@ def kind(path: str | PathLike) -> str:
 
 
 def _contact_sets():
-    """{what it is: class} of results that lie in a folder of their own."""
+    """{kind: class} of results in a folder of their own."""
     from tehl_taichi.runs.bearing.stored_bearing import Bearing
     from tehl_taichi.runs.cam.stored_cam import Cam
     from tehl_taichi.runs.flank.stored_flank import Flank
@@ -39,7 +41,7 @@ def _contact_sets():
 
 
 def open(path: str | PathLike) -> "Run | Study | Flank | Bearing | Cam":
-    """As :func:`tehl_taichi.open`."""
+    """Open results: see :func:`tehl_taichi.open`."""
     from tehl_taichi.runs.sweep.study_table import Study
 
     opened: dict = {STUDY: Study.open, RUN: partial(_run, stand_in=True),
@@ -48,7 +50,7 @@ def open(path: str | PathLike) -> "Run | Study | Flank | Bearing | Cam":
 
 
 def open_run(path: str | PathLike) -> "Run":
-    """The run in the store at `path`. Raises StoreError, which says of a study, flank, bearing or cam where its runs lie."""
+    """Open the run in the store at `path`. Raises StoreError, which names the runs of a study, flank, bearing or cam."""
     if (found := kind(path)) == RUN:
         return _run(path)
     table, store = (Path(path) / part for part in INSIDE[found])

@@ -46,7 +46,7 @@ OF_CASES = (("fatigue_Fi_max",), ("fatigue_below_Fi_max",), ("transient_h_min_m"
 
 @dataclass(frozen=True)
 class Place:
-    """key: by which places of two tables are one; words: for people; x: its number along the axis."""
+    """key: identifies the place across tables; words: its text; x: its number along the axis."""
 
     key: object
     words: str
@@ -55,8 +55,7 @@ class Place:
 
 @dataclass(frozen=True)
 class PlaceQuantity:
-    """label, unit: for people; factor, form: from SI to the printed number; barred: whether it is computed with an error bar,
-    which may be unknown."""
+    """label, unit: printed; factor, form: from SI to the printed number; barred: it has an error bar (which may be unknown)."""
 
     label: str
     unit: str
@@ -72,12 +71,12 @@ class PlaceQuantity:
 
 @dataclass(frozen=True)
 class PlaceTable:
-    """One result.
+    """Table of one result.
 
-    about: {key: what it is}; scene: {dotted key: setting} that its scenes have in common, {} without stores; quantities: {name:
+    about: {key: description}; scene: {dotted key: setting} common to its scenes, {} without stores; quantities: {name:
     :class:`PlaceQuantity`}; numbers: {(name, key of a place): (value, error bar or None)}; across: label of the axis; drawn:
-    names for the figure, the first of each line that has numbers; ticks: whether places have names on the axis in place of
-    numbers; x_unit: SI unit of these, "" where they are in the unit of the label; failed: words of the places without a result.
+    names for the figure, of each line the first with numbers is drawn; ticks: places have names, not numbers, on the axis;
+    x_unit: SI unit of the numbers, "" if they are in the unit of the label; failed: texts of the places without a result.
     """
 
     folder: Path
@@ -95,7 +94,7 @@ class PlaceTable:
 
 
 def place_table(kind, found):
-    """The :class:`PlaceTable` of what :func:`tehl_taichi.open` returns for a folder of this kind. Raises SceneError."""
+    """The :class:`PlaceTable` of results of this kind (see :func:`tehl_taichi.open`). Raises SceneError."""
     return {FLANK: _of_flank, CAM: _of_cam, BEARING: _of_bearing, STUDY: _of_study}[kind](found)
 
 
@@ -153,7 +152,7 @@ def _of_study(study):
 
 
 def _cases(study, keys, one):
-    """The places of a study; one: whether its single key is a number, which is their axis."""
+    """Places of a study; one: whether its single key is a number, which then is the axis."""
     changes = [study.plan.changes(n) for n in range(len(study))]
     return tuple(Place(tuple(map(repr, (change[key] for key in keys))),
                        ", ".join(f"{key} = {_word(change[key])}" for key in keys), float(change[keys[0]] if one else n))
@@ -165,7 +164,7 @@ def _word(value):
 
 
 def _bar(study, name, n):
-    """The error bar of a case, None where it is not known."""
+    """Error bar of a case, None if it is not known."""
     column = study.values.get(summary_columns.error_of(name))
     return None if column is None or column[n] != column[n] else float(column[n])
 
@@ -181,12 +180,12 @@ def _of_ring_row(row):
 
 
 def _real(numbers):
-    """Values that are numbers."""
+    """Only the values that are numbers."""
     return {place: (value, error) for place, (value, error) in numbers.items() if isinstance(value, (int, float))}
 
 
 def _shared(found):
-    """Settings that the scenes of all stored contacts have in common."""
+    """Settings common to the scenes of all stored contacts."""
     scenes = [flat(store.scene.to_dict()) for store in found.stores()]
     first = scenes[0] if scenes else {}
     return {key: value for key, value in first.items()
@@ -194,8 +193,9 @@ def _shared(found):
 
 
 def settings(tables):
-    """[{key: value}] of the tables, to be compared: of scenes where all have some; of keys that positions may set by themselves
-    only those that all tables have."""
+    """[{key: value}] of the tables, for comparison: settings of scenes that all tables have; keys that positions may set only
+    if all tables have them.
+    """
     if not all(table.scene for table in tables):
         return [table.about for table in tables]
     common = set.intersection(*(set(table.scene) for table in tables))
@@ -204,7 +204,7 @@ def settings(tables):
 
 
 def check_alike(tables):
-    """Raises SceneError where studies are not over the same keys."""
+    """Raise SceneError if studies do not sweep the same keys."""
     for other in tables[1:]:
         first, second = (table.about.get("swept") for table in (tables[0], other))
         if first != second:

@@ -29,29 +29,31 @@ class Progress:
     """
 
     def begin(self, scene):
-        """The scene whose passage is marched from here on."""
+        """Receive the scene at the start of its passage."""
 
     def say(self, text):
-        """A sentence about what is done: what the scene leaves out, what was read, what comes next."""
+        """Receive a sentence about the run: what the scene leaves out, what was read, what comes next."""
 
     def warn(self, sentence):
         """Receive warnings about the scene, known before the run (those of its results are in :attr:`Run.warnings`)."""
 
     def stage(self, name, done, total):
-        """`done` of `total` parts of a stage (one of STAGES) are through; it begins with done = 0, a resumed passage with the
-        steps that are stored."""
+        """Receive the progress of a stage (one of STAGES): `done` of `total` parts are complete.
+
+        A stage begins with done = 0, a resumed passage with the number of stored steps.
+        """
 
     def step(self, snapshot):
-        """An accepted time step, a :class:`tehl_taichi.march.snapshot.Snapshot`, right after its stage."""
+        """Receive an accepted time step, a :class:`tehl_taichi.march.snapshot.Snapshot`, right after its stage."""
 
 
 class Lines(Progress):
-    """Prints progress as lines: messages at once, steps and parts of later stages every few seconds, with the time left.
+    """Print progress as lines: messages at once, steps and parts of later stages every few seconds, with the remaining time.
 
     Parameters
     ----------
     stream : file, optional
-        Where to print; default: stderr.
+          Where to print; default: stderr.
 
     Examples
     --------
@@ -95,7 +97,7 @@ class Lines(Progress):
         self._say_at_intervals(f"step {snapshot.step}/{self.total}  {line(snapshot)}{f'  {left}' if left else ''}")
 
     def beyond_steel(self, snapshot):
-        """Say it once, as soon as a pressure is more than steel carries: whoever waits may want to stop."""
+        """Report, once, a pressure beyond the yield limit of steel, so that the user can stop the run."""
         p = snapshot.scalars["p_max_Pa"]
         if p > self.limit and not self.yielded:
             self.yielded = True
@@ -110,7 +112,7 @@ class Lines(Progress):
 
 
 def line(snapshot):
-    """The numbers of a step that are worth a line."""
+    """Text with the main numbers of a step."""
     s = snapshot.scalars
     return (f"p_max {s['p_max_Pa'] / 1e9:.3f} GPa  h_min {s['h_min_m'] * 1e6:.4f} um  residual {s['residual']:.0e}  "
             f"cycles {s['cycles']:.0f}" + (f"  film {s['film_max_C']:.0f} °C" if "film_max_C" in s else ""))

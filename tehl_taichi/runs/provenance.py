@@ -1,4 +1,4 @@
-"""Origin of the numbers: code, libraries, machine, command and time."""
+"""Provenance of the numbers: code, libraries, machine, command and time."""
 
 import importlib.metadata
 import json
@@ -17,20 +17,21 @@ LIBRARIES = ("numpy", "pyfftw", "zarr")
 
 
 def provenance(scene):
-    """Attributes of a store of `scene` that is written by this process: version, commit, versions of Python and the libraries,
-    machine, cores, command, date (UTC), precision of the linear solves, runtime (JSON: arch, threads, taichi, cache)."""
+    """Attributes of a store of `scene` written by this process: version, commit, versions of Python and the libraries, machine,
+    cores, command, date (UTC), precision of the linear solves, runtime (JSON: arch, threads, taichi, cache).
+    """
     return {"version": __version__, "commit": commit(), **versions(), "machine": machine(), "cores": cores.available(),
             "command": shlex.join(sys.argv), "date": datetime.now(timezone.utc).isoformat(timespec="seconds"),
             "precision": precision.of(scene), "runtime": json.dumps(runtime.ensure())}
 
 
 def versions():
-    """{name: version} of Python and of the libraries that numbers depend on (taichi: see :func:`runtime.start`)."""
+    """{name: version} of Python and of the libraries that affect numbers (taichi: see :func:`runtime.start`)."""
     return {"python": platform.python_version(), **{name: importlib.metadata.version(name) for name in LIBRARIES}}
 
 
 def machine():
-    """Operating system, architecture and, where it is known, the processor."""
+    """Operating system, architecture and, if known, the processor."""
     return ", ".join(part for part in (platform.platform(), _processor()) if part)
 
 

@@ -1,7 +1,8 @@
-"""The steps of a run into its store: one is written while the next one is computed, not every one with its state, nor shown.
+"""Recorder of a run: writes each step into the store while the next one is computed; checkpoints and publishing are less
+frequent.
 
-To show a step means to write every number's series again, thrice the work of its fields: with both at every step writing took
-3.3 of the 33 CPU s of the gear passage, and a quarter of the time of its steps, since threads share the interpreter.
+Publishing a step rewrites every series, three times the work of its fields. With a checkpoint and publishing at every step,
+writing took 3.3 of the 33 CPU s of the gear passage and a quarter of its time, since threads share the interpreter.
 """
 
 import dataclasses
@@ -20,13 +21,13 @@ SHOWN = 1.0  # s between the steps that readers see, at 30 ms each: readers look
 
 
 class Interval:
-    """Whether something is due again: every so many seconds, and at the last step."""
+    """Timer: due again after a number of seconds, and at the last step."""
 
     def __init__(self, every, total):
         self.every, self.total, self.last = every, total, time.monotonic()
 
     def at(self, step):
-        """Whether it is; then it is not for a while."""
+        """Whether it is due at this step; if so, the time starts again."""
         if step < self.total and time.monotonic() - self.last < self.every:
             return False
         self.last = time.monotonic()
@@ -34,7 +35,7 @@ class Interval:
 
 
 class Thinned:
-    """Every n-th snapshot and the last (step `total`), with scalars that speak for the steps left out (see :class:`Scalar`)."""
+    """Every n-th snapshot and the last (step `total`), with scalars reduced over the omitted steps (see :class:`Scalar`)."""
 
     METHODS: dict[str, Callable[[Sequence[float]], float]] = {
         "maximum": max, "minimum": min, "sum": sum, "mean": lambda values: sum(values) / len(values),
@@ -44,7 +45,7 @@ class Thinned:
         self.every, self.total, self.waiting = every, total, []
 
     def of(self, snapshot):
-        """The snapshot to store, or None while it is left out."""
+        """Snapshot to store, or None if it is omitted."""
         self.waiting.append(snapshot.scalars)
         if snapshot.step % self.every and snapshot.step < self.total:
             return None
@@ -55,11 +56,11 @@ class Thinned:
 
 
 def march_on(saved, state, notify=None, changes=()):
-    """March on from the last checkpoint of the store, whose state :meth:`Store.go_back` gave, to the end of its scene;
-    notify(snapshot) after each step; changes: of the surfaces, see :func:`tehl_taichi.march.passage.march`.
+    """March from the last checkpoint of the store (`state`, as :meth:`Store.go_back` returns it) to the end of its scene.
 
-    One step is written while the next one is computed; some states stay in `saved.kept_states`, where that is not None. The
-    solver gives up the interpreter's lock thousands of times a step: it must not wait 5 ms for the writer each time.
+    notify(snapshot): called after each step; changes: of the surfaces, see :func:`tehl_taichi.march.passage.march`. One step is
+    written while the next one is computed. Some states stay in `saved.kept_states`, unless that is None. The solver releases
+    the interpreter lock thousands of times per step; it must not wait 5 ms for the writer each time.
     """
     before, total, pending = sys.getswitchinterval(), total_steps(saved.scene), None
     states, shown, thinned = Interval(EVERY, total), Interval(SHOWN, total), Thinned(saved.scene.output.every, total)

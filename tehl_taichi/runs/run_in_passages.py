@@ -1,13 +1,16 @@
-"""A run with run-in: its passage again and again in its store, each on the surface that the one before left, until the one that
-is judged. What a killed run had of it is kept: it resumes inside the passage that ran."""
+"""Run with run-in: the passage is repeated in its store, each time on the surface that the last one left.
+
+The last passage is assessed. A killed run resumes inside its current passage.
+"""
 
 from tehl_taichi.plastic.run_in import repeated
 from tehl_taichi.store import run_in_file
 
 
 def march(saved, state, progress, once):
-    """Make every passage of the store `saved` from a checkpoint's `state`; once(state, changes): marches one to its end.
-    Returns the RunInState."""
+    """Run every passage of the store `saved` from a checkpoint's `state`; once(state, changes): marches one to its end. Returns
+    the RunInState.
+    """
     start, known, left = run_in_file.start_of(saved, state), run_in_file.read(saved.path), [state]
 
     def passage(changes):
@@ -28,7 +31,7 @@ def march(saved, state, progress, once):
 
 
 def _words(state):
-    """The passage that comes next."""
+    """Text of the next passage."""
     if state.rounds:
         rest = abs(state.rest).max()
         return f"run-in: first passage, round {state.rounds + 1} (the surface moved by {rest * 1e9:.1f} nm in the last one)"

@@ -1,8 +1,8 @@
-"""Passage of its run-in that an unfinished run has reached, in words."""
+"""Stage of the run-in that an unfinished run has reached, as text."""
 
 
 def words(store):
-    """As ", passage 1 of run-in (round 3)", for text behind a number of steps; "" of a run without run-in, or after it."""
+    """Text such as ", passage 1 of run-in (round 3)" to follow a number of steps; "" without or after run-in."""
     state = store.run_in
     if state is None or state.done:
         return ""

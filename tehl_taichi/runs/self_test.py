@@ -18,7 +18,7 @@ FILM = 0.42e-6, 0.45e-6  # m, of the self-test, whose grid is good to 1 %
 
 
 def installation():
-    """{what: version or value as text}; starts Taichi."""
+    """{item: version or value as text}; starts Taichi."""
     from tehl_taichi.engine import cores, runtime
 
     info = {"tehl_taichi": __version__, "commit": commit(), **{name: importlib.metadata.version(name) for name in LIBRARIES}}
@@ -26,7 +26,7 @@ def installation():
 
 
 def plugins_checked():
-    """List of (file, name of entry, known value, computed value as text, whether it is right) of the entries of plugins."""
+    """[(file, name of entry, known value, computed value as text, whether they agree)] of the entries of plugins."""
     for registry in REGISTRIES:
         importlib.import_module(f"tehl_taichi.{registry}")
     return [(module.__file__, entry.name, *_checked(known)) for module in plugins.loaded()
@@ -34,7 +34,7 @@ def plugins_checked():
 
 
 def _checked(known):
-    """(known value, computed value, whether it is right); an error of the user's function is the computed value."""
+    """(known value, computed value, whether they agree); an error of the user's function is the computed value."""
     where = f"{known.where}: {known.expected:.6g}"
     try:
         computed = float(known.compute())
@@ -44,7 +44,7 @@ def _checked(known):
 
 
 def self_test():
-    """(central film of a steady line contact in m, whether it is right, seconds that it took)."""
+    """Solve a steady line contact: (central film in m, whether it is right, seconds)."""
     from tehl_taichi.march import march
 
     began = time.perf_counter()

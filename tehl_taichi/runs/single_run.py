@@ -1,4 +1,4 @@
-"""One whole run: steady start, passage, stresses and fatigue, error bars, summary, all into a store; and resuming one."""
+"""One whole run into a store: steady start, passage, stresses and fatigue, error bars, summary; resuming of a run."""
 
 import contextlib
 import functools
@@ -20,12 +20,12 @@ from tehl_taichi.values.path_arguments import folder_of, path_of
 
 def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, force: bool = False, threads: int | None = None,
         arch: str | None = None, progress: Progress | None = None) -> Run:
-    """As :func:`tehl_taichi.run`."""
+    """Run a scene: see :func:`tehl_taichi.run`."""
     return _run(find(scene), path, force, threads, arch, progress or Progress())
 
 
 def _run(scene, path, force, threads, arch, progress, case=False):
-    """Run as :func:`run`; case: the store is part of a study or a flank and lies in it."""
+    """Run as :func:`run`; case: the store is part of a study or a flank and lies inside it."""
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
     from tehl_taichi.store.store_draft import CaseDraft, StoreDraft
@@ -41,7 +41,7 @@ def _run(scene, path, force, threads, arch, progress, case=False):
 
 
 def _check_memory(scene):
-    """Raises SceneError where there is not the memory that a run of the scene needs."""
+    """Raise SceneError if a run of the scene needs more memory than is available."""
     from tehl_taichi.scene import memory_demand
 
     if not scene.runs_in:
@@ -52,8 +52,11 @@ def _check_memory(scene):
 
 
 def open(path: str | PathLike, stand_in: bool = False) -> Run:
-    """The run in the store at `path`: finished, running or broken off; stand_in: also one whose law is not installed here, to
-    show and plot. Raises StoreError where there is none, or a damaged one."""
+    """Open the run in the store at `path`: finished, running or interrupted. Raises StoreError without a store, or for a
+    damaged one.
+
+    stand_in: also open a run whose law is not installed here, to show and plot it.
+    """
     from tehl_taichi.store.store import Store
 
     return Run(Store.open(folder_of(path), stand_in))
@@ -61,7 +64,7 @@ def open(path: str | PathLike, stand_in: bool = False) -> Run:
 
 def resume(path: str | PathLike, *, steps: int | None = None, threads: int | None = None,
            progress: Progress | None = None) -> Run:
-    """As :func:`tehl_taichi.resume`."""
+    """Resume a run: see :func:`tehl_taichi.resume`."""
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
     from tehl_taichi.values.checks import integer
@@ -78,9 +81,9 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
 
 
 def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:
-    """The finished run of `scene` in the store at `path`: as it lies there, resumed, or run now.
+    """Finished run of `scene` in the store at `path`: the existing one, resumed, or run now.
 
-    Raises StoreError where the store there is of another scene, and what :func:`run` and :func:`resume` raise.
+    Raises StoreError if the store has another scene, and the errors of :func:`run` and :func:`resume`.
     """
     from tehl_taichi.store.integrity import is_store
 
@@ -94,14 +97,14 @@ def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None,
 
 
 def check_version(path, run):
-    """Refuse a run of another version as part of what this one computes. Raises StoreError."""
+    """Refuse a run of another version as part of a new result. Raises StoreError."""
     if run.store.other_version:
         raise StoreError(f"{path} was {run.store.other_version}: results of two versions are not mixed; choose another folder "
                          "or remove it")
 
 
 def continued(path, scene, threads, began, progress):
-    """Continue with the store at `path` to the end of `scene`."""
+    """Continue the store at `path` to the end of `scene`."""
     from tehl_taichi.engine import runtime
     from tehl_taichi.store.store import Store
 
@@ -119,12 +122,12 @@ def continued(path, scene, threads, began, progress):
 
 
 def _spent(saved):
-    """Seconds that a store took so far: as recorded at its end, else the steps that it keeps, with the steady start."""
+    """Seconds spent on a store: as recorded at its end, else the sum of its steps with the steady start."""
     return saved.summary.get("wall_s", float(saved.scalar("wall_s").sum()))
 
 
 def _begin(scene, place, clock, progress):
-    """The steady start into a new store, and all that follows."""
+    """Compute the steady start into a new store, then everything after it."""
     from tehl_taichi.engine import runtime
     from tehl_taichi.march.passage import march
     from tehl_taichi.runs.provenance import provenance
@@ -151,7 +154,7 @@ def _begin(scene, place, clock, progress):
 
 
 def _contact_alone(scene, first):
-    """{surface: fatigue of its smooth body under the start}; without the shear of a film that has more than any oil."""
+    """{surface: fatigue of its smooth body under the steady start}; without shear if the film has more than any oil."""
     from tehl_taichi.march.accuracy import contact_alone_bars
     from tehl_taichi.runs.summary.film_warnings import MOST_FRICTION
 
@@ -199,8 +202,9 @@ def _finish(saved, state, steady, clock, progress):
 
 
 class _Clock:
-    """Time since a run began (s), with what earlier pieces of it took (`spent`), what of it went into kernels, launches that
-    lost a worker; made when Taichi runs."""
+    """Clock of a run (s) with the time of earlier parts (`spent`), the time for kernels, and launches that lost a worker; made
+    when Taichi is started.
+    """
 
     def __init__(self, began, spent=0.0):
         from tehl_taichi.engine.taichi_patches.prebound import binding_seconds
@@ -216,7 +220,7 @@ class _Clock:
 
 
 def _march(saved, state, progress):
-    """Every step that the store lacks; with run-in every passage, and its RunInState (else None)."""
+    """March every step that the store lacks; with run-in every passage. Returns the RunInState (else None)."""
     once = functools.partial(_march_once, saved, progress)
     if not (saved.scene.runs_in and saved.scene.time.steps):
         return once(state)
@@ -226,14 +230,14 @@ def _march(saved, state, progress):
 
 
 def _of_steel(scene, run_in):
-    """{"run_in": its numbers}."""
+    """Part {"run_in": its numbers} of the summary."""
     from tehl_taichi.plastic import run_in_numbers
 
     return {"run_in": run_in_numbers.numbers(scene, run_in)}
 
 
 def _with_steel(run_in, found, arrays):
-    """Arrays with those of the run-in; found: {surface: summary}, which then say whether steel still yields."""
+    """Arrays with those of the run-in added; found: {surface: summary}, which get a note on whether steel still yields."""
     from tehl_taichi.plastic import run_in_numbers
 
     for name, new in run_in.records[-1]["new_by_surface"].items():
@@ -263,14 +267,14 @@ def _searched(saved):
 
 
 def _resolved(saved):
-    """Position up to which the index is searched separately, where the grid does not resolve later pressures; or None."""
+    """Position (a) up to which the index is searched separately, if the grid does not resolve later pressures; else None."""
     from tehl_taichi.march.accuracy import coarse_runs
 
     return coarse_runs.resolved(saved.scene, saved, saved.scalar) if _searched(saved) else None
 
 
 def _fatigue(saved, until, progress):
-    """The SearchResult of the run, or None."""
+    """Search the fatigue: the SearchResult of the run, or None."""
     from tehl_taichi.runs.stored_fatigue import assessed
 
     if not _searched(saved):
@@ -280,8 +284,9 @@ def _fatigue(saved, until, progress):
 
 
 def _kept_states(scene, state):
-    """KeptStates of a march from this state; None where no window follows it again for its temperatures, or run-in repeats
-    it."""
+    """KeptStates of a march from this state; None if no window needs them for its temperatures, or if run-in repeats the
+    march.
+    """
     if not scene.zooms or scene.isothermal or scene.runs_in:
         return None
     from tehl_taichi.march.zoom.kept_states import KeptStates
@@ -290,8 +295,10 @@ def _kept_states(scene, state):
 
 
 def _add_contact_alone(found, alone):
-    """Into {surface: summary} what the start found, with its error bars; alone: {surface: numbers of the smooth body}, {} of
-    runs before 0.9. An index of the pressure alone keeps its own."""
+    """Add the results of the steady start, with error bars, to {surface: summary}.
+
+    alone: {surface: numbers of the smooth body}, {} for runs before 0.9. An index of the pressure alone keeps its own numbers.
+    """
     for name in found.keys() & alone.keys():
         if not why_none(found[name]):
             found[name]["contact_alone"] = alone[name]
@@ -299,7 +306,7 @@ def _add_contact_alone(found, alone):
 
 @contextlib.contextmanager
 def _stoppable(path, place=None):
-    """Ctrl-C (or the signal that its text names) anywhere inside says what is stored at `path`."""
+    """Context manager: Ctrl-C (or another signal) inside it reports what is stored at `path`."""
     try:
         yield
     except KeyboardInterrupt as stop:
@@ -319,7 +326,7 @@ def _what_is_left(path):
 
 
 def _missing(left):
-    """Missing part of a passage as text."""
+    """Text of the missing part of a passage."""
     from tehl_taichi.scene.timeline import total_steps
 
     if running := run_in_stage.words(left.store):

@@ -1,4 +1,4 @@
-"""The fatigue of a stored passage, as far as its tractions allow an index."""
+"""Fatigue of a stored passage, if its tractions allow an index."""
 
 import functools
 from dataclasses import replace
@@ -12,11 +12,11 @@ from tehl_taichi.runs.summary.film_warnings import no_index
 
 
 def assessed(store, scene, progress=None, until=None, threads=None, reader=None):
-    """:class:`tehl_taichi.fatigue.search_result.SearchResult` of a stored passage by the constants of `scene`; of the pressure
-    alone where the film has more shear than any oil.
+    """The :class:`tehl_taichi.fatigue.search_result.SearchResult` of a stored passage with the constants of `scene`; of the
+    pressure alone if the film has more shear than any oil.
 
-    reader: the run with a window, which is searched in place of the store, without the contact alone; progress, until,
-    threads: as of :func:`tehl_taichi.fatigue`.
+    reader: the run with a window, which is searched in place of the store, without the contact alone; progress, until, threads:
+    as of :func:`tehl_taichi.fatigue`.
     """
     why = no_index(store) if scene.fatigue.shear else ""
     counted = scene.replace(**WITHOUT) if why else scene

@@ -1,4 +1,4 @@
-"""A run on disk, as Python sees it."""
+"""A stored run as a Python object."""
 
 import html
 import warnings
@@ -13,15 +13,15 @@ from tehl_taichi.values.estimate import Quantity
 
 
 class Run:
-    """A stored run: :func:`tehl_taichi.run`, :func:`tehl_taichi.open` and :func:`tehl_taichi.resume` give one.
+    """A stored run; :func:`tehl_taichi.run`, :func:`tehl_taichi.open` and :func:`tehl_taichi.resume` return one.
 
-    `run["p_max"]` is a number with its error and unit; `run.summary` holds all numbers, `run.store.fields(n)` the arrays
-    (nx+1, ny+1) of entry n in SI units, `run.to_xarray()` everything. A notebook shows a run as a table.
+    `run["p_max"]` is a number with its error and unit; `run.summary` holds all numbers, `run.store.fields(n)` the arrays (nx+1,
+    ny+1) of entry n in SI units, `run.to_xarray()` everything. A notebook shows a run as a table.
 
     Attributes
     ----------
     store : Store
-        The store behind it, :class:`tehl_taichi.store.store.Store`.
+          Its store, :class:`tehl_taichi.store.store.Store`.
 
     Examples
     --------
@@ -45,24 +45,24 @@ class Run:
 
     @property
     def scene(self) -> Scene:
-        """Its :class:`tehl_taichi.Scene`. Raises StoreError where a law of it is not installed here."""
+        """Its :class:`tehl_taichi.Scene`. Raises StoreError if a law of it is not installed here."""
         if self.store.lacks:
             raise StoreError(self.store.lacks)
         return self.store.scene
 
     @property
     def finished(self) -> bool:
-        """Whether it reached the end that it was given, with fatigue and summary."""
+        """Whether the run reached its end, with fatigue and summary."""
         return self.store.finished
 
     @property
     def summary(self) -> dict:
-        """The JSON object of `tehl run --json` (SI units in the names); {} where the run is not finished."""
+        """The JSON object of `tehl run --json` (SI units in the names); {} if the run is not finished."""
         return self.store.summary
 
     @property
     def warnings(self) -> list:
-        """What is doubtful: sentences that carry a `code` and `data`; of a run that is not finished: in its scene.
+        """Warnings: sentences with a `code` and `data`; for an unfinished run only those of its scene.
 
         Examples
         --------
@@ -74,14 +74,14 @@ class Run:
         return self.store.warnings
 
     def __getitem__(self, name: str) -> Quantity:
-        """A number of the summary with its error: run["p_max"], or by its full name run["steady.p_max_Pa"].
+        """Return a number of the summary with its error: run["p_max"], or by its full name run["steady.p_max_Pa"].
 
-        Without its part a name is that of the passage, of the steady start, then of the fatigue; its unit may be left out.
+        A name without its part is searched in the passage, then the steady start, then the fatigue; the unit may be left out.
 
         Raises
         ------
         UnknownName
-            The run has no such number (the message proposes the nearest one), or is not finished.
+              The run has no such number (the message proposes the nearest one), or is not finished.
         """
         if not self.summary:
             raise UnknownName(f"{self.path} is not finished: it has no summary; tehl_taichi.resume finishes it")

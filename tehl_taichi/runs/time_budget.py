@@ -1,4 +1,4 @@
-"""Parts of the time of a whole command: they do not overlap, and their sum is the time of the clock."""
+"""Time budget of a command: its parts do not overlap, and their sum is the elapsed time."""
 
 import contextlib
 import functools
@@ -20,22 +20,23 @@ INSIDE = {PASSAGE: MARCHED, ZOOM: {name: MARCHED[name] for name in ("pressure", 
 
 
 class TimeBudget:
-    """Seconds of each part of a command since `began` (of time.perf_counter()), in `spent`; its :meth:`stage` takes the stages
-    of a :class:`tehl_taichi.runs.progress.Progress`."""
+    """Seconds of each part of a command since `began` (of time.perf_counter()), in `spent`; :meth:`stage` receives the stages
+    of a :class:`tehl_taichi.runs.progress.Progress`.
+    """
 
     def __init__(self, began):
         self.spent, self.since, self.compiled, self.stage_now = {}, began, 0.0, SETUP
         self.open = [SETUP]
 
     def stage(self, name, done, total):
-        """`done` of `total` parts of a stage are through."""
+        """Receive that `done` of `total` parts of a stage are complete."""
         self._charge()
         self.stage_now = name if done < total else ENDED.get(name, REST)
         self.open[0] = LABELS.get(self.stage_now, self.stage_now)
 
     @contextlib.contextmanager
     def watching(self):
-        """While it lasts, calls inside stages are parts of their own."""
+        """Context manager: calls inside stages are timed as separate parts."""
         from tehl_taichi.engine.watched_calls import wrapped
 
         with wrapped({**MARCHED, **SEARCHED}, self._wrapper):
@@ -43,7 +44,7 @@ class TimeBudget:
         self._charge()
 
     def rows(self):
-        """[(part, s, share)], longest first, and their sum."""
+        """[(part, s, share)], the longest first, and their sum."""
         whole = sum(self.spent.values())
         parts = sorted(self.spent.items(), key=lambda part: -part[1])
         return [(name, seconds, seconds / whole) for name, seconds in parts] + [("sum", whole, 1.0)]
@@ -65,7 +66,7 @@ class TimeBudget:
         return watched
 
     def _charge(self):
-        """Give the time since the last call to the part that is open, but for what kernels took to be made."""
+        """Add the time since the last call to the open part, without the time for making kernels."""
         from tehl_taichi.engine.taichi_patches.prebound import binding_seconds
 
         now, compiled = time.perf_counter(), binding_seconds()

@@ -1,4 +1,4 @@
-"""Estimated time of a passage, from the steady start of its scene alone."""
+"""Estimate of the time of a passage, from the steady start of its scene."""
 
 import itertools
 import math
@@ -22,8 +22,9 @@ SIDE = 1.2  # b, to the sides of a domain for the middle of a scan that is as wi
 
 
 def lines(run, coarse):
-    """Sentences on the time of the whole passage of a :class:`tehl_taichi.Run` that holds its steady start, from a few steps
-    that are tried now and stored nowhere; [] of a steady scene. coarse: (nx, ny) of the grid that is named where it is long."""
+    """Sentences about the time of the whole passage of a :class:`tehl_taichi.Run` that holds its steady start; a few trial
+    steps are computed and not stored. [] for a steady scene. coarse: (nx, ny) of the grid to propose for a long run.
+    """
     scene = uncut(run.scene)
     total, pace = total_steps(scene), _pace(run.path, scene) if run.scene.transient else None
     if not run.scene.transient or pace is None:
@@ -38,12 +39,12 @@ def lines(run, coarse):
 
 
 def _repeated(scene):
-    """Words on the passages of run-in."""
+    """Text about the passages of run-in."""
     return f"; run-in repeats the passage up to {scene.time.run_in + MORE} times" if scene.runs_in else ""
 
 
 def _pace(path, scene):
-    """Seconds of a step after the steady start in the store; None where it does not converge."""
+    """Seconds of one step after the steady start in the store; None if it does not converge."""
     with Store.write(path) as saved:
         state, ends = saved.go_back(), []
     try:
@@ -64,7 +65,7 @@ def _most(scene):
 
 
 def _faster(scene, coarse, seconds):
-    """One sentence on what takes less time, from the nodes times the steps of it."""
+    """One sentence about ways to save time, estimated as nodes times steps."""
     ways = (("--grid {}x{}".format(*coarse), dict(zip(("grid.nx", "grid.ny"), coarse))), _middle(scene))
     faster = [f"{words} up to {about(seconds * share)}" for words, changes in ways
             if changes and (share := _share(scene, changes)) < 0.8]
@@ -73,7 +74,7 @@ def _faster(scene, coarse, seconds):
 
 
 def _middle(scene):
-    """(words, changes) that leave the middle of a scan, as large as the contact."""
+    """(text, changes) that restrict a scan to its middle, as large as the contact."""
     s, g, changes = Scales.of(scene), scene.grid, {}
     for n in _scans(scene):
         for key, size, half in zip(("extent_x", "extent_y"), scene.features[n].patch, (s.a, s.b)):
@@ -85,7 +86,7 @@ def _middle(scene):
 
 
 def _share(scene, changes):
-    """Nodes times steps of the changed scene over those of the scene; 1 where it is refused."""
+    """Nodes times steps of the changed scene over those of the scene; 1 if it is refused."""
     try:
         return _work(uncut(scene.replace(**changes))) / _work(scene)
     except Error:

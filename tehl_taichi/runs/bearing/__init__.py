@@ -1,8 +1,8 @@
-"""Rolling bearings: load of every element, contacts with both rings, a run of each.
+"""Rolling bearings: load of every element, contacts with both rings, one run per ring.
 
-`rolling_bearing` is the input, `designations` published dimensions, `bearing_source` reads what names a bearing. Equations:
-`ring_contacts`, `stiffness`, `load_distribution`, `kinematics`, `ellipse_slip`, `dry_contact`, `static_safety`. `ring_scenes`
-makes the scenes, `bearing_run` is the whole, `stored_bearing` its folder, with table and figure.
+`rolling_bearing` is the input, `designations` holds published dimensions, `bearing_source` finds a bearing by its name.
+Equations: `ring_contacts`, `stiffness`, `load_distribution`, `kinematics`, `ellipse_slip`, `dry_contact`, `static_safety`.
+`ring_scenes` makes the scenes, `bearing_run` runs them, `stored_bearing` is the folder, with table and figure.
 """
 
 from tehl_taichi.runs.bearing.bearing_run import bearing

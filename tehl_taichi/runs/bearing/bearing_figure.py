@@ -1,4 +1,4 @@
-"""Loads of the elements around the ring, and over both ellipses Hertz pressure and slip."""
+"""Figure of a bearing: loads of the elements around the ring; Hertz pressure and slip across both contacts."""
 
 import numpy as np
 
@@ -34,7 +34,7 @@ def _loads(ax, bearing):
 
 
 def azimuths(bearing):
-    """(azimuths from -180 to 180 degrees, loads in N), rising."""
+    """Azimuths (-180 to 180 degrees, rising) and loads (N) of the elements."""
     azimuth = (np.array(bearing.record["azimuths_deg"]) + 180) % 360 - 180
     order = np.argsort(azimuth)
     return azimuth[order], np.array(bearing.record["loads_N"])[order]
@@ -46,7 +46,7 @@ def has_slip(bearing):
 
 
 def pressures(bearing):
-    """{ring: (y in mm, Hertz pressure in GPa)} over the middle of both contacts; constant along straight rollers."""
+    """{ring: (y in mm, Hertz pressure in GPa)} along the middle of both contacts; constant along straight rollers."""
     out = {}
     for name, ring in bearing.rings.items():
         y = np.linspace(-1, 1, POINTS)
@@ -56,6 +56,6 @@ def pressures(bearing):
 
 
 def slip(bearing):
-    """{ring: (y in mm, slip of the ring over the element in m/s)}."""
+    """{ring: (y in mm, slip of the ring relative to the element in m/s)}."""
     return {name: (np.array(ring["slip"]["y_m"]) * 1e3, np.array(ring["slip"]["slip_m_s"]))
             for name, ring in bearing.rings.items() if ring["slip"]}

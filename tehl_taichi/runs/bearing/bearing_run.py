@@ -1,4 +1,4 @@
-"""A whole bearing: load of every element, contacts with both rings, their runs, and the record of all."""
+"""Computation of a bearing: load of every element, contacts with both rings, their runs, the record of all."""
 
 import dataclasses
 import math
@@ -38,7 +38,7 @@ SLIPPED = 41  # points of the slip over an ellipse that are kept
 
 @dataclasses.dataclass(frozen=True)
 class RingCase:
-    """One ring: its RingContact, DryContact, EllipseSlip (None: rollers), scene, and words about a grid chosen for it."""
+    """One ring: its RingContact, DryContact, EllipseSlip (None: rollers), scene, and text about the grid chosen for it."""
 
     contact: object
     dry: object
@@ -52,7 +52,7 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
             roughness: float | None = None, scene: Scene | None = None, changes: dict | None = None, steady: bool = False,
             run: bool = True, folder: str | PathLike | None = None, workers: int | None = None, threads: int | None = None,
             progress: Progress | None = None) -> Bearing:
-    """As :func:`tehl_taichi.bearing`."""
+    """Compute a bearing: see :func:`tehl_taichi.bearing`."""
     choice("on", on, RINGS)
     if roughness is not None:
         roughness = in_unit("roughness", roughness, "m")
@@ -79,8 +79,10 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
 
 
 def solved(found, base, changes, on, choose=False):
-    """(loads, speeds, {ring: :class:`RingCase`}) of a BearingSource; on: the ring that carries the features, "" for none;
-    choose: whether their grid is chosen here."""
+    """Solve the mechanics of a BearingSource: (loads, speeds, {ring: :class:`RingCase`}).
+
+    on: ring that carries the features, "" for none; choose: whether their grid is chosen here.
+    """
     which, E = found.bearing, reduced_modulus(base.replace(**ring_scenes.bodies(changes)))
     free = ring_contacts.contacts(which)
     loads = load_distribution.distribution(which, stiffness.of_bearing(which, free, E))
@@ -99,7 +101,7 @@ def _ring(found, base, changes, contact, loads, speeds, E, passes, choose):
 
 
 def bearing_record(found, folder, loads, speeds, rings, roughness):
-    """The JSON object of `tehl bearing --json`, before anything ran."""
+    """JSON object of `tehl bearing --json` before the runs."""
     which, one = found.bearing, rings["inner"].scene
     return plain({
         "name": found.name, "folder": str(folder), "source": found.source, "estimated": list(found.estimated),
@@ -115,7 +117,7 @@ def bearing_record(found, folder, loads, speeds, rings, roughness):
 
 
 def _materials(scene):
-    """{"ring", "element": material in words}."""
+    """{"ring", "element": description of the material}."""
     bodies = (("ring", scene.body_a), ("element", scene.body_b))
     return {name: ", ".join(filter(None, [body.material, f"E = {body.E / 1e9:g} GPa, nu = {body.nu:g}"]))
             for name, body in bodies}
@@ -140,7 +142,7 @@ def _ring_record(which, case, speeds, folder):
 
 
 def _slip_record(slip, spin):
-    """Slip over the ellipse, at every so-manieth point."""
+    """Slip across the contact, thinned out to a few points."""
     if slip is None:
         return {"slip": None, "spin_rad_s": 0.0}
     step = (slip.y.size - 1) // (SLIPPED - 1)
@@ -154,7 +156,7 @@ def _formula(made):
 
 
 def _check_stores(folder, rings):
-    """Refuse a folder whose stores are of other scenes, before anything of it is replaced. Raises StoreError."""
+    """Refuse a folder whose stores have other scenes, before anything in it is replaced. Raises StoreError."""
     for case in rings.values():
         store = Path(folder) / f"{case.scene.name}.zarr"
         if store.exists() and single_run.open(store).scene != case.scene:
@@ -162,14 +164,14 @@ def _check_stores(folder, rings):
 
 
 def write_scenes(folder, rings):
-    """Scene files with every value, to run and change: FOLDER/inner.toml and outer.toml. Raises StoreError."""
+    """Write scene files with every value: FOLDER/inner.toml and outer.toml. Raises StoreError."""
     with files.blamed(folder, "cannot write to"):
         for ring, case in rings.items():
             files.replace(Path(folder) / f"{ring}.toml", scene_file.dumps(case.scene).encode())
 
 
 def _run(made, rings, workers, threads, progress):
-    """The bearing with the results of its two scenes."""
+    """Run both scenes; returns the bearing with their results."""
     names = list(rings)
     try:
         for n, outcome in summaries([case.scene for case in rings.values()], made.folder, workers, threads, progress):

@@ -1,4 +1,4 @@
-"""A bearing by whatever names it: a designation, a TOML file, its own dimensions."""
+"""Find a bearing by a designation, a TOML file, or its own dimensions."""
 
 import dataclasses
 from dataclasses import dataclass
@@ -21,8 +21,9 @@ OWN = ("diameter", "count", "pitch_diameter")  # a bearing that brings these nee
 
 @dataclass(frozen=True)
 class BearingSource:
-    """name: of the folder and the stores; bearing; source: of its dimensions, in words; estimated: keys that are not published;
-    scene: oil, bodies and numerics, None where the caller has one."""
+    """Input of a bearing. name: of the folder and the stores; bearing; source: of its dimensions, as text; estimated: keys that
+    are not published; scene: oil, bodies and numerics, None if the caller has one.
+    """
 
     name: str
     bearing: RollingBearing
@@ -35,8 +36,9 @@ class BearingSource:
 
 
 def bearing_source(what, given):
-    """The :class:`BearingSource` behind a designation, a path or a RollingBearing with further keys {key: value}, which count
-    more. Raises SceneError."""
+    """The :class:`BearingSource` of a designation, a path or a RollingBearing; further keys `given` {key: value} take
+    precedence. Raises SceneError.
+    """
     given = {key: value for key, value in given.items() if value is not None}
     if isinstance(what, RollingBearing):
         changed = dataclasses.replace(what, **_known(given))
@@ -49,7 +51,7 @@ def bearing_source(what, given):
 
 
 def _named(name, given):
-    """(name, keys, source, estimated) of a designation; one that is not in the table needs its own dimensions."""
+    """(name, keys, source, estimated keys) of a designation; an unknown one needs given dimensions."""
     key = key_of(name)
     if not key and given.keys() >= set(OWN):
         return name, {}, "given", ()
@@ -66,7 +68,7 @@ def _made(name, keys, source, estimated, given, of_scene=None):
 
 
 def _known(given):
-    """The keys as values of a RollingBearing. Raises SceneError for an unknown one."""
+    """Keys as values of a RollingBearing. Raises SceneError for an unknown key."""
     known = kinds(RollingBearing)
     for key in given:
         if key not in known:
@@ -75,8 +77,9 @@ def _known(given):
 
 
 def _from_file(path, given):
-    """keys: name; bearing (a table, with `base` a designation for what is not given); scene (a built-in one or a file beside
-    this one)."""
+    """Read a bearing file. Its keys: name; bearing (a table, with `base` a designation for missing values); scene (a built-in
+    one or a file beside this one).
+    """
     from tehl_taichi.store.load_scene import find
 
     data = toml_file.read(path, "bearing")
@@ -100,5 +103,5 @@ def _from_file(path, given):
 
 
 def default_scene():
-    """Oil, bodies and numerics where no scene is named."""
+    """Default scene for oil, bodies and numerics."""
     return scene(SCENE)

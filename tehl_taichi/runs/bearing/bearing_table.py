@@ -1,4 +1,4 @@
-"""The numbers of both rings: a row each, for the table on the screen, the page and the CSV file."""
+"""Numbers of both rings, one row each, for the table on the screen, the page and the CSV file."""
 
 import csv
 import io
@@ -14,8 +14,9 @@ from tehl_taichi.values.escape import cell
 
 @dataclass(frozen=True)
 class RingRow:
-    """name: with its SI unit, of the CSV file; label, factor, form: of the printed table `part`; value: of (record of the
-    bearing, record of the ring), None where there is none; error: likewise."""
+    """Row of the table. name: with its SI unit, for the CSV file; label, factor, form: of the printed table `part`; value:
+    function of (record of the bearing, record of the ring), gives None without a value; error: likewise.
+    """
 
     part: str
     name: str
@@ -34,23 +35,23 @@ class RingRow:
 
     @property
     def barred(self):
-        """Whether it is computed with an error bar, which may be unknown."""
+        """Whether its value has an error bar (which may be unknown)."""
         return self.error is not RingRow.error
 
 
 def of_ring(*keys):
-    """A value deep in the record of a ring."""
+    """Function that finds a value in the record of a ring by its keys."""
     return lambda bearing, ring: dig(ring, *keys)
 
 
 def _result(part, name, label, factor, form, *keys):
-    """A row of a number in the summary of a ring, with its error bar."""
+    """Row of a number in the summary of a ring, with its error bar."""
     return RingRow(part, name, label, factor, form, of_ring("summary", *keys),
                    lambda bearing, ring: error_of(ring["summary"], *keys))
 
 
 def film_ratio(bearing, ring):
-    """lambda: central film over the rms height of both surfaces together; the computed film where there is one."""
+    """Film parameter lambda: central film over the combined rms height of both surfaces; the computed film if it exists."""
     if (own := dig(ring, "summary", "lambda")) is not None:
         return own
     film = dig(ring, "summary", "steady", "h_c_m") or ring.get("film_formula_m")
@@ -59,20 +60,20 @@ def film_ratio(bearing, ring):
 
 
 def sliding_friction(bearing, ring):
-    """Friction coefficient of the run; None of rollers, whose contacts do not slip."""
+    """Friction coefficient of the run; None for rollers, whose contacts do not slip."""
     return dig(ring, "summary", "steady", "friction_coefficient") if ring["slip"] else None
 
 
 def sliding_loss(bearing, ring):
-    """Power (W) of the slip in the most loaded contact: friction coefficient x load x mean slip."""
+    """Power loss (W) by slip in the most loaded contact: friction coefficient x load x mean slip."""
     friction = sliding_friction(bearing, ring)
     return None if friction is None else friction * ring["load_N"] * ring["slip"]["mean_m_s"]
 
 
 def slip_torque(bearing):
-    """(power in W, friction torque in N m) of the slip in all contacts of a bearing record; None without runs, or with spin.
+    """Power loss (W) and friction torque (N m) by slip in all contacts of a bearing record; None without runs, or with spin.
 
-    The mean slip of a contact grows with b^2, that is with Q^(2/3), and its loss with Q^(5/3); the friction coefficient is
+    The mean slip of a contact is proportional to b^2, that is Q^(2/3), and its loss to Q^(5/3); the friction coefficient is
     that of the most loaded contact.
     """
     losses = [sliding_loss(bearing, bearing[ring]) for ring in RINGS]
@@ -118,7 +119,7 @@ ROWS = (
 
 
 def tables(bearing):
-    """{title: rows of (label, inner, outer)} of the parts that have values; bearing: a Bearing."""
+    """{title: rows of (label, inner, outer)} of the parts with values; bearing: a Bearing."""
     out = {}
     for part in PARTS:
         found = [(row.label, *(row.shown(bearing.record, ring) for ring in bearing.rings.values()))
@@ -133,7 +134,7 @@ def _has(row, bearing):
 
 
 def elements(bearing):
-    """(heads, rows) of the loads of the elements."""
+    """(column heads, rows) of the loads of the elements."""
     one = bearing.record
     heads, columns = ["azimuth, deg", "load, N"], [one["azimuths_deg"], one["loads_N"]]
     if any(one["contact_angles_deg"]):
@@ -142,7 +143,7 @@ def elements(bearing):
 
 
 def facts(bearing):
-    """[(what, value)] of the bearing as a whole."""
+    """[(label, value)] of quantities of the whole bearing."""
     one, which = bearing.record, bearing.record["geometry"]
     axial = [("axial load", f"{one['axial_load_N']:.1f} N")] if one["axial_load_N"] > 1e-6 * one["ball_load_max_N"] else []
     return [("largest load of an element", f"{one['ball_load_max_N']:.1f} N"),
@@ -153,7 +154,7 @@ def facts(bearing):
 
 
 def _torque(one):
-    """Rows of the power and torque of the slip, where they are known."""
+    """Rows of power loss and torque by slip, if they are known."""
     if not (found := slip_torque(one)):
         return []
     power, torque = found
@@ -161,7 +162,7 @@ def _torque(one):
 
 
 def estimated_words(bearing):
-    """Sentence about dimensions that are not published; "" where all are."""
+    """Sentence about dimensions that are not published; "" if all are."""
     keys, which = bearing.record["estimated"], bearing.record["geometry"]
     if not keys:
         return ""
@@ -170,7 +171,7 @@ def estimated_words(bearing):
 
 
 def warnings(bearing):
-    """Warnings of both runs, each once, with its rings where only one has it."""
+    """Warnings of both runs, each once; a warning of one ring only begins with its name."""
     places: dict[str, list[str]] = {}
     for name, ring in bearing.rings.items():
         for sentence in (ring["summary"] or {}).get("warnings", []):
@@ -179,7 +180,7 @@ def warnings(bearing):
 
 
 def csv_text(bearing):
-    """The table as CSV in SI units, a line per ring, error bars in columns of their own."""
+    """Table as CSV in SI units: a line per ring, error bars in separate columns."""
     rows = [row for row in ROWS if _has(row, bearing)]
     barred = [row for row in rows if any(row.error(bearing.record, ring) is not None for ring in bearing.rings.values())]
     text = io.StringIO()

@@ -1,7 +1,7 @@
-"""Bearings whose inner dimensions are published, and where.
+"""Bearings with published inner dimensions, and the sources.
 
-Catalogues give bore, outside diameter and ratings, not balls and grooves. `estimated` names what is not published: these values
-are those of the ratings of ISO 76 and ISO 281.
+Catalogues give bore, outside diameter and ratings, but not balls and grooves. `estimated` names unpublished keys; their values
+are those behind the ratings of ISO 76 and ISO 281.
 """
 
 import re
@@ -19,7 +19,9 @@ GROOVES = ("osculation_inner", "osculation_outer")
 
 @dataclass(frozen=True)
 class Designation:
-    """says: what it is; keys: of its :class:`RollingBearing`; source; estimated: keys that the source leaves open."""
+    """Entry of a bearing. says: description; keys: of its :class:`RollingBearing`; source; estimated: keys that the source does
+    not give.
+    """
 
     says: str
     keys: dict
@@ -53,14 +55,15 @@ MEANT = "give its elements by --ball-diameter, --balls and --pitch-diameter (rol
 
 
 def key_of(name):
-    """The key of a designation in the table, without its suffixes for seals, cage and clearance (6206-2RS1, 6206 C3); "" where
-    it is not there."""
+    """Key of a designation in the table, without suffixes for seals, cage and clearance (6206-2RS1, 6206 C3); "" if it is not
+    in the table.
+    """
     words = name.lower().replace("skf", "").strip()
     return next((key for key in (words, *SUFFIX.split(words, maxsplit=1)[:1]) if key in DESIGNATIONS), "")
 
 
 def designation(name):
-    """The :class:`Designation` of that name. Raises SceneError."""
+    """The :class:`Designation` with this name. Raises SceneError."""
     if not (key := key_of(name)):
         raise SceneError(f"the inner dimensions of bearing {name!r} are not in the table of this program"
                          f"{nearest(name.lower(), DESIGNATIONS)}; known: {', '.join(DESIGNATIONS)}; or {MEANT}")

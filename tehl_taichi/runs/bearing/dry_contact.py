@@ -1,4 +1,4 @@
-"""Dry contact of one element with one ring: ellipse or line, and what the solver computes in its place."""
+"""Dry contact of one element with one ring: ellipse or line, and the contact that the solver computes for it."""
 
 from dataclasses import dataclass
 
@@ -10,8 +10,9 @@ ELLIPTIC, LINE = "elliptic", "line"
 
 @dataclass(frozen=True)
 class DryContact:
-    """kind: of the scene, elliptic or line; a, b: half-axes along and across rolling (m; a line: b is half of the length of the
-    roller); p_H: Pa; load: of the element (N); scene_load: N or N/m; words: which of them it is, and why."""
+    """kind: of the scene, elliptic or line; a, b: half-axes along and across rolling (m; line: b is half the length of the
+    roller); p_H: Pa; load: of the element (N); scene_load: N or N/m; words: text with the kind and its reason.
+    """
 
     kind: str
     a: float
@@ -23,9 +24,9 @@ class DryContact:
 
 
 def dry_contact(bearing, contact, load, E):
-    """The :class:`DryContact` of an element under a load (N), E: E' (Pa).
+    """The :class:`DryContact` of an element under a load (N); E: E' (Pa).
 
-    Crowned rollers touch in a slender ellipse until it is as long as they are, then along a line. An ellipse that is too
+    Crowned rollers have an elliptic contact until it is as long as they are, then a line contact. An ellipse that is too
     slender for the solver is computed as the line contact of its middle: equal pressure, equal half-width within 2 %.
     """
     if bearing.rollers and contact.R_y == float("inf"):

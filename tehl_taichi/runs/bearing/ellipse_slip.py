@@ -1,5 +1,7 @@
-"""Slip over the contact of a ball and its groove: the pressed surface is curved across rolling, so that both bodies have their
-common speed only along two lines (Heathcote 1921; Johnson, Contact Mechanics, section 8.5), and spin adds to it.
+"""Slip across the contact of a ball and its groove.
+
+The contact surface is curved across rolling, so both bodies have the same speed only along two lines (Heathcote 1921; Johnson,
+Contact Mechanics, section 8.5); spin adds to the slip.
 """
 
 from dataclasses import dataclass
@@ -12,7 +14,7 @@ SPINNING = 1e-6  # of the largest slip: the difference of both sides that is spi
 
 @dataclass(frozen=True)
 class EllipseSlip:
-    """y: across rolling, from -b to b (m); slip: speed of the ring over that of the element along rolling (m/s); u_m: m/s."""
+    """y: across rolling, from -b to b (m); slip: speed of the ring minus that of the element along rolling (m/s); u_m: m/s."""
 
     y: np.ndarray
     slip: np.ndarray
@@ -20,7 +22,7 @@ class EllipseSlip:
 
     @property
     def weight(self):
-        """Share of a Hertz load per row: 1 - (y/b)^2."""
+        """Share of the Hertz load in each row: proportional to 1 - (y/b)^2."""
         weight = 1 - (self.y / self.y[-1]) ** 2
         return weight / np.sum(weight)
 
@@ -31,8 +33,9 @@ class EllipseSlip:
 
     @property
     def representative(self):
-        """Slide-roll ratio of a run, which has one: that of the centre, where pressure and features are; with spin, which does
-        not act there, the mean size of the slip."""
+        """Slide-roll ratio for a run, which has only one: that of the centre, where pressure and features are; with spin, which
+        is zero there, the mean absolute slip.
+        """
         profile = self.slip - self.slip[::-1]
         return -self.mean / self.u_m if np.any(np.abs(profile) > SPINNING * np.abs(self.slip).max()) else self.centre
 
@@ -43,12 +46,12 @@ class EllipseSlip:
 
     @property
     def mean(self):
-        """Mean size of the slip (m/s), weighted with the load."""
+        """Mean absolute slip (m/s), weighted with the load."""
         return float(np.sum(self.weight * np.abs(self.slip)))
 
     @property
     def rolling(self):
-        """y/b, more than 0, of pure rolling."""
+        """Position y/b > 0 of pure rolling."""
         half = slice(POINTS // 2, None)
         change = np.nonzero(np.diff(np.sign(self.slip[half])))[0]
         return float(self.y[half][change[0]] / self.y[-1]) if change.size else 1.0
@@ -57,8 +60,8 @@ class EllipseSlip:
 def slip_over(contact, b, u_m, spin=0.0):
     """The :class:`EllipseSlip` of a contact (half-axis b across, m) under free rolling; spin: rad/s.
 
-    The profile u (y^2/(2 R_d R_x)) + spin y is exact to second order; its level is where friction of constant coefficient
-    (Coulomb) balances: the median weighted with the load. Without spin pure rolling is at 0.347 b.
+    The profile u (y^2/(2 R_d R_x)) + spin y is exact to second order. Its level follows from the balance of friction with a
+    constant coefficient (Coulomb): the load-weighted median is zero. Without spin, pure rolling is at 0.347 b.
     """
     y = np.linspace(-b, b, POINTS)
     profile = u_m * y**2 / (2 * contact.R_d * contact.R_x) + spin * y
@@ -67,7 +70,7 @@ def slip_over(contact, b, u_m, spin=0.0):
 
 
 def weighted_median(values, weight):
-    """The value that has half of the weight on either side."""
+    """Weighted median: half of the weight lies on either side."""
     order = np.argsort(values)
     below = np.cumsum(weight[order]) - 0.5 * weight[order]
     return float(np.interp(0.5 * np.sum(weight), below, values[order]))

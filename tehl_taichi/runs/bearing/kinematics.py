@@ -1,4 +1,4 @@
-"""Speeds in a bearing whose elements roll without gross slip: cage, elements, entrainment, passes, spin."""
+"""Speeds in a bearing whose elements roll without gross slip: cage, elements, entrainment, contact rates, spin."""
 
 import math
 from dataclasses import dataclass
@@ -11,7 +11,8 @@ class BearingSpeeds:
     """cage, element: angular speeds of the cage, and of an element about its own axis relative to the cage (rad/s); u_m:
     entrainment speed of both contacts (m/s); passes: {ring: elements per second that pass one of its points}; element_passes:
     contacts per second of a point of the element with either ring; spin: {ring: spin of the ring on the element (rad/s)} under
-    outer raceway control."""
+    outer raceway control.
+    """
 
     cage: float
     element: float
@@ -34,8 +35,11 @@ def speeds(bearing, contacts):
 
 
 def total_spin(bearing, contacts):
-    """Spin (rad/s) of both contacts together, |omega_i - omega_o| sin(alpha), however they share it; tapered rollers roll
-    about a common apex and have none. Under outer raceway control (Jones 1959) the inner ring has all of it."""
+    """Total spin (rad/s) of both contacts, |omega_i - omega_o| sin(alpha), however it is shared.
+
+    Tapered rollers roll about a common apex and have none. Under outer raceway control (Jones 1959) the inner ring has all of
+    it.
+    """
     if bearing.rollers:
         return 0.0
     return 2 * math.pi / 60 * abs(bearing.speed - bearing.outer_speed) * math.sin(contacts[OUTER].angle)

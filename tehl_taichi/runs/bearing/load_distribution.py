@@ -1,5 +1,7 @@
 """Load of every rolling element, from the equilibrium of the inner ring (Stribeck 1901, Sjovall 1933; ISO/TS 16281 without
-tilt): the ring moves radially and axially, each element is compressed by what its azimuth leaves, and carries c delta^n.
+tilt).
+
+The ring moves radially and axially. The compression delta of an element follows from its azimuth; its load is c delta^n.
 """
 
 import math
@@ -43,7 +45,8 @@ class LoadDistribution:
 
 def distribution(bearing, stiffness):
     """The :class:`LoadDistribution` of a bearing; stiffness: (c, n) of :func:`tehl_taichi.runs.bearing.stiffness.of_bearing`.
-    Raises SceneError where no displacement balances the load."""
+    Raises SceneError if no displacement balances the load.
+    """
     ring = _Displaced(bearing, *stiffness)
     axial = _axial_displacement(bearing, ring)
     radial = ring.radial_for(axial)
@@ -52,7 +55,7 @@ def distribution(bearing, stiffness):
 
 
 class _Displaced:
-    """The elements of a bearing whose inner ring is displaced."""
+    """Elements of a bearing whose inner ring is displaced."""
 
     def __init__(self, bearing, c, n):
         self.bearing, self.c, self.n = bearing, c, n
@@ -63,7 +66,7 @@ class _Displaced:
 
     @property
     def centred(self):
-        """Axial displacement at which balls without a contact angle stand in the plane of their grooves."""
+        """Axial displacement at which balls without a contact angle lie in the plane of their grooves."""
         return 0.0 if self.bearing.alpha or self.bearing.rollers else -self.bearing.groove_distance * math.sin(self.free)
 
     def _of_balls(self, radial, axial):
@@ -77,7 +80,7 @@ class _Displaced:
         return gap, np.full(self.azimuth.shape, alpha)
 
     def elements(self, radial, axial):
-        """(loads, contact angles)."""
+        """(loads, contact angles) of all elements."""
         delta, angles = self.compression(radial, axial)
         return self.c * np.maximum(delta, 0.0) ** self.n, angles
 
@@ -93,7 +96,7 @@ class _Displaced:
 
 
 def _axial_displacement(bearing, ring):
-    """Axial displacement that balances the axial load; without one that of a purely radial displacement."""
+    """Axial displacement that balances the axial load; without axial load that of a purely radial displacement."""
     if bearing.axial == 0:
         return ring.centred
     lowest = -bearing.groove_distance * math.sin(ring.free) if not bearing.rollers else -_reach(bearing, ring)
@@ -106,13 +109,13 @@ def _axial_displacement(bearing, ring):
 
 
 def _reach(bearing, ring):
-    """Axial displacement at which a single roller carries the radial load: more leaves the ring without contact."""
+    """Upper limit of the axial displacement: a single roller carries the radial load; beyond it the ring has no contact."""
     alone = (bearing.load / (ring.c * math.cos(bearing.alpha))) ** (1 / ring.n)
     return 10 * alone / math.sin(bearing.alpha)
 
 
 def _root(excess, low, load):
-    """Displacement (m) above `low` at which `excess`, which grows, is zero. Raises SceneError."""
+    """Displacement (m) above `low` at which the increasing function `excess` is zero. Raises SceneError."""
     high = low + FIRST
     while excess(high) < 0:
         if high - low > FARTHEST:

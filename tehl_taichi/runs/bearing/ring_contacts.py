@@ -28,7 +28,7 @@ def contacts(bearing, angle=None):
 
 
 def _contact(bearing, ring, side, angle, axis_angle):
-    """1/R_x is 2 cos(nu)/D of the element, plus (inner) or minus (outer) cos(angle)/r of the ring."""
+    """Contact with one ring: 1/R_x is 2 cos(nu)/D of the element, plus (inner) or minus (outer) cos(angle)/r of the ring."""
     D = bearing.diameter
     r = bearing.pitch_diameter / 2 + side * D / 2 * math.cos(axis_angle)
     R_x = 1 / (2 * math.cos(bearing.nu) / D - side * math.cos(angle) / r)

@@ -16,8 +16,7 @@ SMALLEST = 1e-12  # of a slide-roll ratio that is rounding
 
 
 def base_of(scene, feature=None):
-    """The scene with the dent or scan `feature` as its only one (None: its own); nothing is judged before the contact is
-    set."""
+    """Scene with the dent or scan `feature` as its only one (None: its own features); not checked before the contact is set."""
     data = scene.to_dict()
     data["time"]["steady_only"] = True
     if feature is not None:
@@ -26,15 +25,17 @@ def base_of(scene, feature=None):
 
 
 def check_free(changes):
-    """Refuse changes of what the bearing sets. Raises SceneError."""
+    """Refuse changes of keys that the bearing determines. Raises SceneError."""
     for key in map(full_name, changes):
         if key.startswith("contact.") or key in ("operation.u_m", "operation.srr", *BY_SURFACE):
             raise SceneError(f"{key} has no effect: dimensions, load and speed of the bearing set it")
 
 
 def ring_scene(base, changes, name, contact, dry, u_m, srr, passes, choose=False):
-    """(the scene called `name` of one ring, words about its grid); contact: its RingContact, dry: its DryContact, passes:
-    whether features pass here, choose: whether their grid is chosen here. Raises SceneError that says which ring."""
+    """(scene called `name` of one ring, text about its grid). Raises SceneError that names the ring.
+
+    contact: its RingContact; dry: its DryContact; passes: whether features pass; choose: whether their grid is chosen here.
+    """
     own = {"name": name, "contact.kind": dry.kind, "contact.radius_x": contact.R_x,
            "contact.radius_y": math.inf if dry.kind == LINE else contact.R_y, "contact.load": dry.scene_load,
            "operation.u_m": u_m, "operation.srr": srr if abs(srr) > SMALLEST else 0.0}
@@ -53,10 +54,10 @@ def ring_scene(base, changes, name, contact, dry, u_m, srr, passes, choose=False
 
 
 def bodies(changes):
-    """Changes of the bodies among all changes."""
+    """Those changes that belong to the bodies."""
     return {key: value for key, value in changes.items() if key.startswith("bodies")}
 
 
 def smooth(base):
-    """The scene without features."""
+    """Scene without its features."""
     return dataclasses.replace(base, features=()).with_user_keys(())

@@ -1,4 +1,4 @@
-"""A rolling bearing as a catalogue or a drawing gives it: elements, pitch circle, grooves, load and speed."""
+"""A rolling bearing as in a catalogue or on a drawing: elements, pitch circle, grooves, load and speed."""
 
 import math
 from dataclasses import dataclass
@@ -70,7 +70,7 @@ class RollingBearing:
                              "contact angle already includes the clearance; allowed: one of them")
 
     def _check_room(self):
-        """The elements must fit on their circle."""
+        """Refuse more elements than fit on the pitch circle."""
         chord = self.pitch_diameter * math.sin(math.pi / self.count) if self.count > 1 else math.inf
         if self.count < 3 or chord < self.diameter:
             raise SceneError(f"bearing.count = {self.count}: {self.element}s of {self.diameter:g} m on a circle of "

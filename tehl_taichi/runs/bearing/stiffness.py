@@ -1,4 +1,4 @@
-"""Stiffness of one element between the rings: Q = c delta^n, delta the approach in both its contacts together."""
+"""Stiffness of one element between the rings: Q = c delta^n, with the total approach delta of both contacts."""
 
 import math
 
@@ -18,12 +18,12 @@ def approach(load, contact, E):
 
 
 def point_stiffness(contacts, E):
-    """c (N/m^1.5) of a ball between its two contacts."""
+    """Stiffness c (N/m^1.5) of a ball between its two contacts."""
     return sum(approach(1.0, contact, E) for contact in contacts) ** -POINT
 
 
 def line_stiffness(length, E):
-    """c (N/m^(10/9)) of a roller between its two contacts (ISO/TS 16281), in proportion to E'."""
+    """Stiffness c (N/m^(10/9)) of a roller between its two contacts (ISO/TS 16281), proportional to E'."""
     return ROLLER * (length * 1e3) ** (8 / 9) * E / STEEL
 
 

@@ -1,4 +1,4 @@
-"""A bearing as its folder keeps it: loads, both contacts with their summaries, the table, the figure."""
+"""Stored bearing: a folder with loads, both contacts and their summaries, table, figure."""
 
 from tehl_taichi.runs import machine_life
 from tehl_taichi.runs.bearing import bearing_table
@@ -38,19 +38,19 @@ class Bearing(ContactSet):
 
     @property
     def failed(self) -> dict:
-        """{ring: reason} of those that ran and have no result."""
+        """{ring: reason} of the rings whose run has no result."""
         return {ring: one["reason"] for ring, one in self.rings.items() if one["summary"] is None and one["reason"]}
 
     @property
     def title(self) -> str:
-        """The bearing in a line."""
+        """One-line description of the bearing."""
         one = self.record["geometry"]
         axial = f", {one['axial']:g} N axial" if one["axial"] else ""
         return f"{self.name}: {one['load']:g} N radial{axial}, {one['speed']:g} 1/min, {self.record['oil']} at " \
                f"{self.record['temperature_C']:g} deg C"
 
     def with_ring(self, ring, outcome):
-        """A copy with the outcome of the run of a ring."""
+        """Copy with the outcome of the run of a ring."""
         done = {**self.record[ring], "converged": outcome.summary is not None, "reason": outcome.reason,
                 "summary": machine_life.with_hours(outcome.summary, machine_life.of_ring(self.record, self.record[ring]))}
         return Bearing(self.folder, {**self.record, ring: done})

@@ -1,7 +1,7 @@
-"""Cams and followers: a table of radius, load and speeds over the cycle, a line contact and a run at each of its angles.
+"""Cams and followers: a table of radius, load and speeds over the cycle; a line contact and a run at each angle.
 
-`cam_table` reads the table, `cam_run` is the whole, `stored_cam` its folder with table and figure, `cam_columns` and
-`cam_figure` their columns and panels.
+`cam_table` reads the table, `cam_run` runs it, `stored_cam` is the folder with table and figure, `cam_columns` and `cam_figure`
+define columns and panels.
 """
 
 from tehl_taichi.runs.cam.cam_run import cam

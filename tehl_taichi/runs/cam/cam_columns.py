@@ -1,4 +1,4 @@
-"""The columns of an angle: those of the cam's contact, and the results as along a flank."""
+"""Table columns of a cam: contact at each angle, and results as along a flank."""
 
 from tehl_taichi.runs.flank import flank_columns
 from tehl_taichi.runs.flank.flank_columns import CONTACT, TableColumn
@@ -14,10 +14,10 @@ COLUMNS = (
 
 
 def tables(rows):
-    """{title: (heads, lines)}, as :func:`tehl_taichi.runs.flank.flank_columns.tables`."""
+    """{title: (heads, lines)}: see :func:`tehl_taichi.runs.flank.flank_columns.tables`."""
     return flank_columns.tables(rows, COLUMNS, places=1)
 
 
 def csv_text(rows):
-    """The table as CSV, as :func:`tehl_taichi.runs.flank.flank_columns.csv_text`."""
+    """Table as CSV: see :func:`tehl_taichi.runs.flank.flank_columns.csv_text`."""
     return flank_columns.csv_text(rows, COLUMNS)

@@ -1,4 +1,4 @@
-"""Film, pressure, temperature, fatigue, friction and slip over the angle of the cam."""
+"""Figure of a cam: film, pressure, temperature, fatigue, friction and slip over its angle."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ ANGLE = "angle of the cam (degrees)"
 
 
 def panels(cam):
-    """[(label, factor, {legend: series})] of the panels that have values."""
+    """[(label, factor, {legend: series})] of the panels with values."""
     found = [(label, factor, {name: one for name, what in lines.items() if len((one := series(cam, what))[0])})
              for label, factor, lines in PANELS]
     return [panel for panel in found if panel[2]][:LAST]
@@ -33,7 +33,7 @@ def drawn(page, cam):
 
 
 def series(cam, what):
-    """(angles, values, error bars) of the angles that have this number; an angle without one breaks the line (nan)."""
+    """(angles, values, error bars) of a number; an angle without it breaks the line (nan)."""
     rows = [(at.angle, *plotted(at, p_H, summary, what)) for at, p_H, summary in cam.rows]
     if all(value is None for _, value, _ in rows):
         return np.array([]), np.array([]), np.array([])

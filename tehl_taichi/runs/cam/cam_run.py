@@ -1,4 +1,4 @@
-"""A whole cycle of a cam: its angles, their runs, and the record of both."""
+"""Computation of a cycle of a cam: its angles, their runs, the record of both."""
 
 from os import PathLike
 
@@ -28,7 +28,7 @@ WAITING = "it has not run yet; repeat the tehl cam command with --out to resume"
 def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene | None = None, changes: dict | None = None,
         steady: bool = False, folder: str | PathLike | None = None, workers: int | None = None, threads: int | None = None,
         progress: Progress | None = None) -> Cam:
-    """As :func:`tehl_taichi.cam`."""
+    """Compute a cam: see :func:`tehl_taichi.cam`."""
     path = path_of("table", table)
     places = cam_table.load(path)
     start = find(scene) if scene is not None else smooth(built_in(SCENE))
@@ -49,7 +49,7 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
 
 
 def cam_record(path, folder, places, scenes):
-    """The JSON object of `tehl cam --json`, before anything ran."""
+    """JSON object of `tehl cam --json` before the runs."""
     one = next(iter(scenes.values()))
     return plain({"name": path.stem, "folder": str(folder), "source": str(path), "assumption": ASSUMPTION, "oil": one.oil.name,
                   "temperature_C": one.operation.temperature,
@@ -64,7 +64,7 @@ def _position(at, folder, scene):
 
 
 def _run(made, scenes, workers, threads, progress):
-    """The cam with the results of its scenes {number of the position: scene}."""
+    """Run the scenes {number of the position: scene}; returns the cam with their results."""
     numbers, done = list(scenes), 0
     try:
         for n, outcome in summaries(list(scenes.values()), made.folder, workers, threads, progress):

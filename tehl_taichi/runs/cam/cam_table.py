@@ -1,4 +1,4 @@
-"""Angles of a cycle from a table (CSV): load per length, radii and speeds of both surfaces relative to the contact."""
+"""Angles of a cycle from a CSV table: load per length, radii, and speeds of both surfaces relative to the contact."""
 
 import math
 from dataclasses import dataclass, field
@@ -23,8 +23,9 @@ OPPOSED = 2.0  # slide-roll ratio beyond which the surfaces move against each ot
 
 @dataclass(frozen=True)
 class CamPosition:
-    """One angle in SI: angle (deg), R reduced radius (m), load (N/m), u_a, u_b surface speeds of cam and follower relative to
-    the contact (m/s); more: other columns of the table."""
+    """One angle in SI. angle (deg); R: reduced radius (m); load (N/m); u_a, u_b: surface speeds of cam and follower relative to
+    the contact (m/s); more: further columns of the table.
+    """
 
     angle: float
     R: float
@@ -38,12 +39,12 @@ class CamPosition:
 
     @property
     def words(self):
-        """Place of the contact as text."""
+        """Text with the angle."""
         return f"{self.angle:g} deg"
 
     @property
     def u_m(self):
-        """Entrainment speed; a contact that moves the other way is its mirror image."""
+        """Entrainment speed; a contact that moves in the opposite direction is a mirror image."""
         return 0.5 * abs(self.u_a + self.u_b)
 
     @property
@@ -53,7 +54,7 @@ class CamPosition:
 
     @property
     def without_film(self):
-        """Why there is no steady film at this angle; "" where there is one."""
+        """Reason why there is no steady film at this angle; "" if there is one."""
         if self.load == 0:
             return "no load"
         if self.u_m < SLOWEST:
@@ -64,7 +65,7 @@ class CamPosition:
 
 
 def load(path):
-    """The :class:`CamPosition` of every row of a CSV file, by angle. Raises SceneError."""
+    """Read the :class:`CamPosition` of every row of a CSV file, sorted by angle. Raises SceneError."""
     path = Path(path)
     names, rows = table_text.rows(path)
     columns = _columns(path, names)
@@ -75,7 +76,7 @@ def load(path):
 
 
 def _columns(path, names):
-    """{column: (factor, declaration)} of the table: the radii reduced, or those of both surfaces."""
+    """{column: (factor, declaration)} of the table; it has either reduced radii or those of both surfaces."""
     radii = REDUCED if "R_mm" in names else BOTH
     if missing := [name for name in (*ALWAYS, *radii) if name not in names]:
         others = [name for name in names if name not in KNOWN]

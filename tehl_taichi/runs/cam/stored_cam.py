@@ -1,4 +1,4 @@
-"""A cam as its folder keeps it: the angles with their summaries, the table, the figure."""
+"""Stored cam: a folder with the angles and their summaries, table, figure."""
 
 from tehl_taichi.runs.cam import cam_columns
 from tehl_taichi.runs.cam.cam_table import CamPosition
@@ -35,11 +35,11 @@ class Cam(PositionSet):
 
     @property
     def title(self) -> str:
-        """The cam in a line."""
+        """One-line description of the cam."""
         return f"{self.name}: {len(self.rows)} angles, {self.record['oil']} at {self.record['temperature_C']:g} deg C"
 
     def with_position(self, number, outcome):
-        """A copy with the outcome of an angle."""
+        """Copy with the outcome of one angle."""
         positions = list(self.record["positions"])
         positions[number] = {**positions[number], "converged": outcome.summary is not None, "reason": outcome.reason,
                              "summary": outcome.summary}

@@ -1,7 +1,7 @@
-"""A gear flank: mesh positions with radii, speeds and load, a run at each of them.
+"""Gear flanks: mesh positions with radii, speeds and load; one run per position.
 
-`mesh` and `positions` are the geometry, `load_table` loads from elsewhere, `flank_source` reads what names a flank.
-`line_contacts` makes the scenes, `outcomes` runs them, `flank_run` is the whole, `stored_flank` its folder, with table and
+`mesh` and `positions` are the geometry, `load_table` reads loads of other programs, `flank_source` finds a flank by its name.
+`line_contacts` makes the scenes, `outcomes` runs them, `flank_run` does both, `stored_flank` is the folder, with table and
 figure.
 """
 

@@ -1,4 +1,4 @@
-"""The columns of a position: for the table on the screen, the CSV file and the figure."""
+"""Table columns of a flank: for the table on the screen, the CSV file and the figure."""
 
 import csv
 import io
@@ -16,8 +16,9 @@ from tehl_taichi.values.escape import cell
 
 @dataclass(frozen=True)
 class TableColumn:
-    """name: with its SI unit, of the CSV file; head, factor, form: of the printed table `table`; value, error: of (position,
-    p_H, summary), None where there is none."""
+    """name: with its SI unit, for the CSV file; head, factor, form: of the printed table `table`; value, error: functions of
+    (position, p_H, summary), give None where missing.
+    """
 
     name: str
     head: str
@@ -28,7 +29,7 @@ class TableColumn:
 
     @property
     def barred(self):
-        """Whether it is computed with an error bar, which may be unknown."""
+        """Whether its values have error bars (which may be unknown)."""
         return isinstance(self.value, (_Of, _Judged))
 
     def error(self, *row):
@@ -43,28 +44,30 @@ class TableColumn:
 
 
 def dig(summary, *keys):
-    """A value deep in a summary, None where it is not there (or where there is no summary)."""
+    """Value in a summary by its nested keys; None if it is missing or if there is no summary."""
     for key in keys:
         summary = (summary or {}).get(key)
     return summary
 
 
 def error_of(summary, *keys):
-    """The error bar of a value deep in a summary, None where there is none."""
+    """Error bar of a value in a summary by its nested keys; None if it is missing."""
     return dig(summary, *keys[:-1], "error", keys[-1])
 
 
 def known(summary, *keys):
-    """The value that tables and figures have of these keys: none of a distribution over a single feature, whose largest index
-    says more."""
+    """Value for tables and figures by its keys; None for the distribution over a single feature, where the largest index says
+    more.
+    """
     if "statistics" in keys and not dig(summary, "fatigue", "rough"):
         return None
     return dig(summary, *keys)
 
 
 def plotted(at, p_H, summary, what):
-    """(value, error bar) of a series of a figure, None each where there is none; what: keys in the summary, or the name of a
-    number of the position."""
+    """(value, error bar) of a series of a figure, None where missing; what: keys in the summary, or the name of a number of the
+    position.
+    """
     if isinstance(what, tuple):
         return known(summary, *what), error_of(summary, *what)
     if what == "judged":
@@ -73,8 +76,9 @@ def plotted(at, p_H, summary, what):
 
 
 def judged_index(summary):
-    """(Fi, its error bar) by which a position is judged; None each without an index, and of rough surfaces, which are judged by
-    a percentile with a column of its own."""
+    """(Fi, its error bar) that decides about a position; (None, None) without an index, and for rough surfaces, for which a
+    percentile in another column decides.
+    """
     found = dig(summary, "fatigue")
     if not found or why_none(found) or found.get("rough"):
         return None, None
@@ -83,7 +87,7 @@ def judged_index(summary):
 
 
 class _Judged:
-    """The index by which a position is judged, with its error bar."""
+    """Column of the index that decides about a position, with its error bar."""
 
     def __call__(self, position, p_H, summary):
         return judged_index(summary)[0]
@@ -93,7 +97,7 @@ class _Judged:
 
 
 class _Of:
-    """A number of the summary, with its error bar."""
+    """Column of a number of the summary, with its error bar."""
 
     def __init__(self, *keys):
         self.keys = keys
@@ -106,7 +110,7 @@ class _Of:
 
 
 class _OfPassage(_Of):
-    """A number of a passage, none of a steady contact."""
+    """Column of a number of a passage; empty for steady contacts."""
 
     def __call__(self, position, p_H, summary):
         return super().__call__(position, p_H, summary) if dig(summary, "transient") else None
@@ -141,12 +145,12 @@ COLUMNS = (
 
 
 def used(rows, columns=COLUMNS):
-    """The columns that have a value in any of the rows, (position, p_H, summary) each."""
+    """Columns with a value in any of the rows (position, p_H, summary)."""
     return [column for column in columns if any(column.value(*row) not in (None, "") for row in rows)]
 
 
 def tables(rows, of=COLUMNS, places=2):
-    """{title: (heads, lines)} of the tables that have values, each with the positions, the first `places` columns."""
+    """{title: (heads, lines)} of the tables with values; the first `places` columns, the positions, are in each."""
     columns, out = used(rows, of), {}
     for title in TABLES:
         found = [column for column in columns if column.table == title]
@@ -159,13 +163,13 @@ def tables(rows, of=COLUMNS, places=2):
 
 
 def title_of(part, summaries):
-    """Title of a part of the results; that of stresses is "stress" of steady contacts, whose load alone gives them."""
+    """Title of a part of the results; stresses of steady contacts are titled "stress", since only the load causes them."""
     passes = any(dig(summary, key) for summary in summaries for key in ("transient", "fatigue"))
     return "stress" if part == PASSAGE and not passes else part
 
 
 def csv_text(rows, of=COLUMNS):
-    """The table as CSV in SI units; after that the error bars, and what a table of positions brought along."""
+    """Table as CSV in SI units, followed by the error bars and the further columns of the user's table of positions."""
     columns, more = used(rows, of), list(dict.fromkeys(key for at, *_ in rows for key in at.more))
     with_bars = [column for column in columns if any(column.error(*row) is not None for row in rows)]
     text = io.StringIO()

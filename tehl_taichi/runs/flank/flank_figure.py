@@ -1,4 +1,4 @@
-"""Film, pressure, temperature and fatigue over the flank: dedendum left of the pitch line, addendum right of it."""
+"""Figure of a flank: film, pressure, temperature and fatigue; dedendum left of the pitch line, addendum right of it."""
 
 import numpy as np
 
@@ -51,13 +51,14 @@ def _panel(ax, flank, label, factor, lines):
 
 
 def style(name):
-    """How a series is drawn: the number by which a position is judged, mostly one of the others, as a ring around that."""
+    """Line style of a series: the deciding number is a ring around the other number that it usually equals."""
     return {"fmt": "o", "mfc": "none"} if name == JUDGED else {"fmt": ".-"}
 
 
 def _series(flank, what):
-    """[(x_pl, value, its error bar or None)] of the positions that have it; nan between the two sides of a jump, where the line
-    breaks."""
+    """[(x_pl, value, its error bar or None)] of the positions with this value; nan between the two sides of a jump breaks the
+    line.
+    """
     out: list[tuple[float, float, float | None]] = []
     for at, p_H, summary in flank.rows:
         value, error = plotted(at, p_H, summary, what)
@@ -70,7 +71,7 @@ def _series(flank, what):
 
 
 def _marks(axes, flank):
-    """A to E as far as they are shown, and the dedendum shaded."""
+    """Draw the visible points A to E, and shade the dedendum."""
     low, high = axes[0].get_xlim()
     points = flank.points or {at.point: at.x_pl for at in flank.positions if at.point}
     shown = {name: x * 1e3 for name, x in points.items() if low <= x * 1e3 <= high}

@@ -1,4 +1,4 @@
-"""A whole flank: its positions, their runs, and the record of both."""
+"""Computation of a flank: its positions, their runs, the record of both."""
 
 import dataclasses
 import math
@@ -36,7 +36,7 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
           on: str | None = None, positions: int | None = None, at: Sequence[str | float] = (), scene: Scene | None = None,
           changes: dict | None = None, steady: bool = False, folder: str | PathLike | None = None,
           workers: int | None = None, threads: int | None = None, progress: Progress | None = None) -> Flank:
-    """As :func:`tehl_taichi.flank`."""
+    """Compute a flank: see :func:`tehl_taichi.flank`."""
     found, scene = flank_source(gear).changed(torque, speed), None if scene is None else find(scene)
     changes = _settled(changes or {}, steady)
     places = found.positions(on, positions, at)
@@ -58,13 +58,13 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
 
 
 def _settled(changes, steady):
-    """{full key: value} of all that is changed. Raises SceneError where steady and a change contradict each other."""
+    """{full key: value} of all changes. Raises SceneError if `steady` contradicts a change."""
     return settled([*((words(key, value), key, value) for key, value in changes.items()),
                     *[("steady = True", "time.steady_only", True)] * steady])
 
 
 def flank_record(subject, places, scenes, outcomes):
-    """The JSON object of a flank: what it is :func:`about`, and its positions with their scenes and outcomes."""
+    """JSON object of a flank: its description (see :func:`about`), and the positions with their scenes and outcomes."""
     pair = subject["geometry"]
     Ra = 0.5 * (pair.get("Ra1", 0.0) + pair.get("Ra2", 0.0))
     rates = machine_life.of_gears(pair["n1"], pair["z1"], pair["z2"], pair["on"]) if "z1" in pair else None
@@ -72,13 +72,13 @@ def flank_record(subject, places, scenes, outcomes):
 
 
 def about(found, folder, on):
-    """What a flank says of itself; found: as :func:`flank_source` gives it; on: whose flank, "" of a table."""
+    """Description of a flank; found: result of :func:`flank_source`; on: pinion or gear, "" for a table."""
     return {"name": found.name, "folder": str(folder), "assumption": ASSUMPTION, "load_sharing": _sharing(found.pair),
             "geometry": _geometry(found.pair, on) if found.pair else {"table": found.source}}
 
 
 def _sharing(pair):
-    """How the load is shared, in words."""
+    """Text about the load sharing."""
     return SHARING["table" if not pair else "given" if pair.load_share else "helical" if pair.beta else "spur"]
 
 
@@ -91,7 +91,7 @@ def _geometry(pair, on):
 
 
 def _position(at, scene, outcome, Ra, rates):
-    """The entry of a position; Ra: mean roughness of both flanks in m, 0: not given; rates: ContactRates, None of a table."""
+    """Entry of a position; Ra: mean roughness of both flanks in m, 0: not given; rates: ContactRates, None for a table."""
     bulk = None if at.bulk is None else scene.operation.temperature
     return {"point": at.point, "x_pl_m": at.x_pl, "arc_m": at.arc, "rho_a_m": at.rho_a, "rho_b_m": at.rho_b, "R_m": at.R,
             "u_a_m_s": at.u_a, "u_b_m_s": at.u_b, "srr": at.srr, "load_N_m": at.load, "p_Hertz_Pa": Scales.of(scene).p_H,
@@ -101,7 +101,7 @@ def _position(at, scene, outcome, Ra, rates):
 
 
 def fresh(name):
-    """The first of runs/NAME-1, runs/NAME-2 ... that does not exist."""
+    """First of runs/NAME-1, runs/NAME-2 ... that does not exist."""
     n = 1
     while os.path.lexists(folder := Path("runs") / f"{name}-{n}"):
         n += 1

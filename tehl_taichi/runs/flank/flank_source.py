@@ -1,4 +1,4 @@
-"""A flank by whatever names it: a built-in pair, a TOML file, a table (CSV), or a GearPair."""
+"""Find a flank by a built-in pair, a TOML file, a CSV table, or a GearPair."""
 
 import dataclasses
 from dataclasses import dataclass
@@ -21,7 +21,9 @@ SCENE = "gear"  # built-in scene that gives oil, bodies, feature and numerics wh
 
 @dataclass(frozen=True)
 class FlankSource:
-    """name: of the stores; pair: its gears, or None with the rows of a table; scene: everything but contact and speeds."""
+    """Input of a flank. name: of the stores; pair: its gears, or None with the rows of a table; scene: everything but contact
+    and speeds.
+    """
 
     name: str
     scene: Scene
@@ -33,7 +35,7 @@ class FlankSource:
         file_name("name", self.name)
 
     def changed(self, torque=None, speed=None):
-        """With another torque (N m) and speed (1/min) of the pinion. Raises SceneError."""
+        """Copy with another torque (N m) and speed (1/min) of the pinion. Raises SceneError."""
         given = {key: value for key, value in (("torque", torque), ("n1", speed)) if value is not None}
         if not given:
             return self
@@ -42,8 +44,9 @@ class FlankSource:
         return dataclasses.replace(self, pair=dataclasses.replace(self.pair, **given))
 
     def positions(self, on=None, count=None, at=()):
-        """Positions on the flank of `on` (pinion by default): see :func:`tehl_taichi.runs.flank.positions.along`. A table has
-        its own. Raises SceneError."""
+        """Positions on the flank of `on` (pinion by default): see :func:`tehl_taichi.runs.flank.positions.along`; a table has
+        fixed positions. Raises SceneError.
+        """
         if count is not None and at:
             raise SceneError(f"positions = {shown(count)} and at = {shown(list(at))} contradict each other: give one of them")
         if self.pair:
@@ -56,7 +59,7 @@ class FlankSource:
 
 
 def flank_source(what):
-    """The FlankSource behind a name, a path or a GearPair. Raises SceneError."""
+    """The FlankSource for a name, a path or a GearPair. Raises SceneError."""
     if isinstance(what, GearPair):
         return FlankSource("flank", scene(SCENE), what)
     if isinstance(what, str) and what in PAIRS:
@@ -70,8 +73,9 @@ def flank_source(what):
 
 
 def _from_file(path):
-    """keys: name; gear (a table, with `base` a built-in pair for what is not given) or table (a CSV file); scene (a built-in
-    one or a scene file); files beside this one."""
+    """Read a flank file. Its keys: name; gear (a table, with `base` a built-in pair for missing values) or table (a CSV file);
+    scene (a built-in one or a scene file); paths relative to this file.
+    """
     from tehl_taichi.store.load_scene import find
 
     data = toml_file.read(path, "flank")

@@ -1,4 +1,4 @@
-"""The scene of a position: the line contact there, everything else from the scene of the flank."""
+"""Scene of a position: its line contact, with everything else from the scene of the flank."""
 
 import math
 
@@ -12,16 +12,19 @@ SPARE = 1.2  # gap at the ends of the domain over the height of the features, wh
 
 
 def scene_at(base, changes, name, n, position):
-    """The scene of a position, the n-th of a flank called `name`: `base` with `changes` (as Scene.replace takes them) and the
-    contact there. Raises SceneError that says where.
+    """Scene of the n-th position of a flank called `name`: `base` with `changes` (as for Scene.replace) and the contact at the
+    position. Raises SceneError with the position.
 
-    Temperatures are computed at all positions unless switched off: rolling at the pitch point is in the same table then.
+    Temperatures are computed at all positions unless switched off, also for pure rolling at the pitch point, so that one table
+    compares like with like.
     """
     return scene_and_grid_at(base, changes, name, n, position, False)[0]
 
 
 def scene_and_grid_at(base, changes, name, n, position, choose=True):
-    """(the scene of a position as :func:`scene_at`, words about its grid); choose: whether that is chosen for the features."""
+    """(scene of a position as in :func:`scene_at`, text about its grid); choose: whether the grid is chosen for the
+    features.
+    """
     try:
         given = {full_name(key): value for key, value in changes.items()}
         _check_free(given)
@@ -43,12 +46,12 @@ def _check_free(given):
 
 
 def _without_passage(base, given):
-    """The changed scene before anything of its features is checked, which depends on the contact."""
+    """Changed scene without its passage, to avoid checks of the features that depend on the contact."""
     return base.replace(**{key: value for key, value in given.items() if key != "time.steps"} | {"time.steady_only": True})
 
 
 def _own(plain, name, n, position, warm):
-    """What a position says of its scene; warm: whether a change sets the temperature, as an option does."""
+    """Keys that a position sets in its scene; warm: a change (an option) sets the temperature."""
     heat = {} if position.bulk is None or warm else {"operation.temperature": position.bulk}
     return {**heat, "name": store_name(name, n, position), "contact.kind": "line", "contact.radius_y": math.inf,
             "contact.radius_x": position.R, "contact.load": position.load, "operation.u_m": position.u_m,
@@ -56,8 +59,9 @@ def _own(plain, name, n, position, warm):
 
 
 def room(plain, load, R):
-    """Keys of a domain that features fit into which are large beside a line contact (load in N/m, reduced radius R in m): where
-    it ends along x the gap is higher than they are, along y it is wider."""
+    """Keys of a larger domain for features that are large relative to a line contact (load in N/m, reduced radius R in m): the
+    gap at its ends is higher than they are, and its width larger.
+    """
     if not plain.features:
         return {}
     a, _ = hertz.line(load, R, reduced_modulus(plain))
@@ -69,10 +73,10 @@ def room(plain, load, R):
 
 
 def store_name(name, n, position):
-    """As in fzg-c-03-C: a name that folders can have."""
+    """Name of a store, such as fzg-c-03-C."""
     return f"{name}-{n:02d}" + (f"-{position.point}" if position.point else "")
 
 
 def where(position):
-    """A position in words."""
+    """Text of a position."""
     return f"{position.point}{' ' * bool(position.point)}({position.words})"

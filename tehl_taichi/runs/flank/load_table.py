@@ -1,4 +1,4 @@
-"""Positions from the table of a loaded tooth contact analysis (CSV)."""
+"""Positions from a CSV table of a loaded tooth contact analysis."""
 
 import math
 from pathlib import Path
@@ -22,8 +22,10 @@ MOST = 1000  # rows
 
 
 def load(path):
-    """Positions of a CSV file with the columns of NEEDED, dedendum of body a (x_pl < 0) first; a column `point` names
-    positions, a column `bulk_C` has the bulk temperature, other columns are kept in `more`. Raises SceneError."""
+    """Read positions from a CSV file with the columns of NEEDED; dedendum of body a (x_pl < 0) first. Raises SceneError.
+
+    A column `point` names positions, `bulk_C` is the bulk temperature; further columns are kept in `more`.
+    """
     path = Path(path)
     names, rows = table_text.rows(path)
     _check_names(path, names)
@@ -35,7 +37,7 @@ def load(path):
 
 
 def _check_ways(path, found):
-    """Refuse ways that are nothing beside any tooth: they were meant in another unit. Raises SceneError."""
+    """Refuse distances that are tiny relative to any tooth: they were meant in another unit. Raises SceneError."""
     way = max(found, key=lambda p: abs(p.x_pl)).x_pl * 1e3
     if 0 < abs(way) < SHORTEST:
         raise SceneError(f"table {path}: x_pl_mm = {way:g} mm is the largest distance from the pitch point, too small for a "

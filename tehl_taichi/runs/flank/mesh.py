@@ -1,8 +1,8 @@
-"""The line of action of a gear pair: where its teeth touch, with which radii, speeds and load (SI; no taichi).
+"""Line of action of a gear pair: contact positions of its teeth, with radii, speeds and load (SI; no taichi).
 
-All ways x run along the line of action from the pitch point C, positive towards the tip of the driving pinion: contact goes
-from A (root of the pinion, tip of the gear, x < 0) over B, C, D to E. Helical pairs are taken in their transverse section, with
-radii in the normal section (ISO/TS 15144-1).
+All coordinates x run along the line of action from the pitch point C, positive towards the tip of the driving pinion: contact
+runs from A (root of the pinion, tip of the gear, x < 0) over B, C, D to E. Helical pairs are treated in their transverse
+section, with radii in the normal section (ISO/TS 15144-1).
 """
 
 import functools
@@ -17,7 +17,7 @@ MESHES = 2.0  # transverse contact ratio from which on a spur pair never carries
 
 @dataclass(frozen=True)
 class Mesh:
-    """What follows from the geometry of a pair. Raises SceneError where its teeth do not mesh."""
+    """Geometry of a meshing pair. Raises SceneError if its teeth do not mesh."""
 
     pair: GearPair
 
@@ -43,7 +43,7 @@ class Mesh:
         return (self.pair.z1, self.pair.z2)[wheel - 1]
 
     def d_a(self, wheel):
-        """Tip diameter, m: as given, or m_n (z/cos beta + 2 + 2 x - 2 Delta), Delta = x1 + x2 - (a_w - a_0)/m_n."""
+        """Tip diameter, m: given, or m_n (z/cos beta + 2 + 2 x - 2 Delta), Delta = x1 + x2 - (a_w - a_0)/m_n."""
         p = self.pair
         Delta = p.x1 + p.x2 - (p.a_w - p.a_0) / p.m_n
         x = (p.x1, p.x2)[wheel - 1]
@@ -59,12 +59,12 @@ class Mesh:
         return math.pi * self.pair.m_t * math.cos(self.pair.alpha_t)
 
     def _to_tip(self, wheel):
-        """Way from the pitch point to where the tip of that wheel touches, m."""
+        """Distance (m) from the pitch point to the contact position of the tip of this wheel."""
         return math.sqrt((self.d_a(wheel) / 2) ** 2 - self.r_b(wheel) ** 2) - self.rho_C(wheel)
 
     @functools.cached_property
     def points(self):
-        """{letter: x in m} of A to E, in their order; C only where the teeth touch there."""
+        """{letter: x in m} of A to E, sorted; C only if the teeth touch there."""
         A, E = -self._to_tip(2), self._to_tip(1)
         found = {"A": A, "B": E - self.p_bt, "C": 0.0, "D": A + self.p_bt, "E": E}
         return {name: x for name, x in sorted(found.items(), key=lambda item: item[1]) if A <= x <= E}
@@ -93,7 +93,8 @@ class Mesh:
     @property
     def full_load(self):
         """Load per length (N/m) of one pair of teeth that carries all; helical: mean over the contact lines b eps_alpha/cos
-        beta_b of the normal force F_bt/cos beta_b."""
+        beta_b of the normal force F_bt/cos beta_b.
+        """
         return self.F_bt / self.pair.b / (self.eps_alpha if self.pair.beta else 1.0)
 
     def radii(self, x):
@@ -101,13 +102,15 @@ class Mesh:
         return tuple(rho / math.cos(self.beta_b) for rho in (self.rho_C(1) + x, self.rho_C(2) - x))
 
     def speeds(self, x):
-        """(u_1, u_2, slip u_1 - u_2) in m/s along the profiles: equal at C to the last bit."""
+        """(u_1, u_2, slip u_1 - u_2) in m/s along the profiles; exactly equal at C."""
         omega_1, omega_2 = self.omega
         u_C = omega_1 * self.rho_C(1)
         return u_C + omega_1 * x, u_C - omega_2 * x, (omega_1 + omega_2) * x
 
     def arc(self, x, wheel):
-        """Way (m) along the flank of that wheel from its pitch point, dedendum negative: (rho^2 - rho_C^2)/(2 r_b)."""
+        """Distance (m) along the flank of this wheel from its pitch point, negative in the dedendum: (rho^2 - rho_C^2)/(2
+        r_b).
+        """
         towards_tip = x if wheel == 1 else -x
         return towards_tip * (2 * self.rho_C(wheel) + towards_tip) / (2 * self.r_b(wheel))
 

@@ -1,4 +1,4 @@
-"""The scenes of a flank as jobs of the pool, several at once or here; what their stores hold already is taken from there."""
+"""Jobs of a flank: its scenes run in parallel or in this process; results in existing stores are reused."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +15,7 @@ STAGE = "positions"
 
 @dataclass(frozen=True)
 class Outcome:
-    """summary: as `tehl run --json`, None where there is none; reason: why not; store: its path."""
+    """Outcome of a scene. summary: as `tehl run --json`, None without one; reason: why it is missing; store: its path."""
 
     store: Path
     summary: dict | None = None
@@ -23,11 +23,11 @@ class Outcome:
 
 
 def summaries(scenes, folder, workers=None, threads=None, progress=None):
-    """Generator of (number of the scene, its Outcome) as they end, each with a store NAME.zarr in `folder`.
+    """Generator of (number of the scene, its Outcome) in order of completion, each with a store NAME.zarr in `folder`.
 
     A scene that does not converge, or loses its worker twice, does not stop the others. An existing store is resumed. workers,
-    threads: as :func:`tehl_taichi.runs.sweep.pool.sizes`. Raises StoreError where a store is of another scene;
-    KeyboardInterrupt leaves what is stored.
+    threads: see :func:`tehl_taichi.runs.sweep.pool.sizes`. Raises StoreError for a store of another scene; KeyboardInterrupt
+    keeps all stored data.
     """
     places = [(scene, Path(folder) / f"{scene.name}.zarr") for scene in scenes]
     done = {n: outcome for n, place in enumerate(places) if (outcome := _before(*place))}
@@ -41,7 +41,7 @@ def summaries(scenes, folder, workers=None, threads=None, progress=None):
 
 
 def _before(scene, path):
-    """The Outcome that a finished store has, None where the scene has to run. Raises StoreError."""
+    """Outcome in a finished store, None if the scene has to run. Raises StoreError."""
     if not path.exists():
         return None
     stored = single_run.open(path)
@@ -52,7 +52,7 @@ def _before(scene, path):
 
 
 def _run(places, todo, workers, threads, progress):
-    """Generator of what :func:`summaries` yields of the scenes that have to run."""
+    """Generator of the results of :func:`summaries` for the scenes that have to run."""
     alone, count = workers == 1, len(places)
     jobs = (case.CaseJob(places[n][0], str(places[n][1].absolute()), threads, shared=not alone) for n in todo)
     work = _Here(progress, len(todo)) if alone else case.work
@@ -75,14 +75,14 @@ def _outcome(path, answer):
 
 
 def _report(progress, scene, outcome, which):
-    """Words that another process could not print."""
+    """Report texts that another process could not print."""
     progress.say(f"{which}: {scene.name}: {outcome.reason or 'done'}")
     for sentence in scene.warnings():
         progress.warn_at(scene.name, sentence)
 
 
 class _Here:
-    """Works in this process and lets the listener hear of each run."""
+    """Job function for this process; it passes the progress of each run to the listener."""
 
     def __init__(self, progress, count):
         self.progress, self.count, self.n = progress, count, 0
@@ -94,7 +94,7 @@ class _Here:
 
 
 class _Once(Progress):
-    """Passes on the progress of a flank: a kind of warning once, as of the first position that has it."""
+    """Progress of a flank: passes on each kind of warning once, with the first position that has it."""
 
     def __init__(self, listener):
         self.listener, self.warned = listener, set()
@@ -106,7 +106,7 @@ class _Once(Progress):
         self.listener.warn(sentence)
 
     def warn_at(self, name, sentence):
-        """A warning of the run called `name`."""
+        """Pass on a warning of the run called `name`."""
         kind = code_of(sentence) or str(sentence)
         if kind not in self.warned:
             self.warned.add(kind)
@@ -120,7 +120,7 @@ class _Once(Progress):
 
 
 class _Named(Progress):
-    """Passes on the progress of one of many runs: its stages and steps, and its warnings with its name."""
+    """Progress of one of many runs: passes on stages and steps, and warnings with the run's name."""
 
     def __init__(self, listener, name):
         self.listener, self.name = listener, name

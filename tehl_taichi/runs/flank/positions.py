@@ -1,4 +1,4 @@
-"""Positions on a flank: each a line contact of its own, with radii, speeds and load per width."""
+"""Positions on a flank: each is a line contact with its radii, speeds and load per width."""
 
 from dataclasses import dataclass, field
 
@@ -13,11 +13,11 @@ JUMPED = 1e-12  # m: nearer than this, a position requested is at a jump of the 
 
 @dataclass(frozen=True)
 class Position:
-    """One position in SI, body a with the feature.
+    """One position in SI; body a carries the feature.
 
-    x_pl: way along the line of action from the pitch point, negative in the dedendum of body a; arc: the same along its flank
-    (None where it is not known); point: A to E, with - or + before and behind a jump of the load; slip: u_a - u_b; bulk:
-    temperature of the teeth in deg C (None: that of the scene); film_ratios: see :mod:`tehl_taichi.runs.flank.specific_film`.
+    x_pl: coordinate along the line of action from the pitch point, negative in the dedendum of body a; arc: distance along its
+    flank (None: unknown); point: A to E, with - or + before and after a jump of the load; slip: u_a - u_b; bulk: temperature of
+    the teeth in deg C (None: that of the scene); film_ratios: see :mod:`tehl_taichi.runs.flank.specific_film`.
     """
 
     x_pl: float
@@ -44,7 +44,7 @@ class Position:
 
     @property
     def words(self):
-        """Where it is."""
+        """Text with its coordinate."""
         return f"x_pl = {self.x_pl * 1e3:.4g} mm"
 
     @property
@@ -54,8 +54,9 @@ class Position:
 
 
 def shares(mesh):
-    """[(x in m, share of the tooth force)] along the path of contact, an x twice where it jumps: the table of the pair; of a
-    helical pair 1 throughout; else the classical trapezoid 1/3 to 2/3, 1, 2/3 to 1/3. Raises SceneError."""
+    """[(x in m, share of the tooth force)] along the path of contact, with an x twice at a jump: the table of the pair; 1
+    throughout for helical pairs; else the classical trapezoid 1/3 to 2/3, 1, 2/3 to 1/3. Raises SceneError.
+    """
     (A, E), pair = mesh.ends, mesh.pair
     if pair.load_share:
         if pair.load_share[0][0] > A or pair.load_share[-1][0] < E:
@@ -70,14 +71,14 @@ def shares(mesh):
 
 
 def _check_ways(table, path):
-    """Refuse a table that goes so far beyond the path that its ways were meant in another unit. Raises SceneError."""
+    """Refuse a table that extends far beyond the path: its coordinates were meant in another unit. Raises SceneError."""
     most = BEYOND * path
     for way, _ in (table[0], table[-1]):
         number("gear.load_share: a way past C", way, "m", -most, most, usual=path / 2)
 
 
 def share(table, x, side):
-    """The share at x, linear between the rows of the table; side: - or + of a jump at x."""
+    """Share at x, linear between the rows of the table; side: - or + of a jump at x."""
     for (x_0, low), (x_1, high) in zip(table, table[1:]):
         if x_0 < x <= x_1 if side == "-" else x_0 <= x < x_1:
             return low + (high - low) * (x - x_0) / (x_1 - x_0)
@@ -85,16 +86,16 @@ def share(table, x, side):
 
 
 def jumps(mesh, table):
-    """x at which the load jumps inside the path, in their order."""
+    """Sorted positions x at which the load jumps inside the path."""
     A, E = mesh.ends
     return sorted({x for (x, low), (x_1, high) in zip(table, table[1:]) if x == x_1 and low != high and A < x < E})
 
 
 def along(mesh, on="pinion", count=9, at=()):
-    """Positions of a mesh, from the dedendum of body a (`on`: pinion or gear) to its addendum.
+    """Positions of a mesh, from the dedendum of body a (`on`: pinion or gear) to its addendum. Raises SceneError.
 
-    count: as many, A to E and both sides of every jump of the load among them, then one on each side of C, the others in the
-    widest gaps between; at: in their place, of these points ("A", "B-", "C") or ways x_pl in m. Raises SceneError.
+    count: number of positions. They include A to E and both sides of every load jump, then one on each side of C, then points
+    in the widest gaps. at: these points ("A", "B-", "C") or coordinates x_pl in m instead.
     """
     table = shares(mesh)
     if on not in ONS:
@@ -105,7 +106,7 @@ def along(mesh, on="pinion", count=9, at=()):
 
 
 def _marks(mesh, table):
-    """(x, side of a jump) of A to E and of the jumps."""
+    """(x, side of a jump) of A to E and of the load jumps."""
     jumping = jumps(mesh, table)
     return [(x, side) for x in sorted({*mesh.points.values(), *jumping}) for side in (("-", "+") if x in jumping else ("",))]
 
@@ -125,8 +126,9 @@ def _spread(mesh, table, count):
 
 
 def _beside_pitch_point(mesh, marks):
-    """A position on each side of C, where friction rises from 0 within a small slip: straight lines to the next points would
-    hide it; none where C is not between two of the marks or these are closer."""
+    """One position on each side of C, where friction rises from 0 within a small slip (straight lines to the next points would
+    hide it); none if C is not between two marks or these are closer.
+    """
     way = NEAR * mesh.speeds(0.0)[0] / sum(mesh.omega)
     ways = sorted({x for x, _ in marks})
     if "C" not in mesh.points or not ways[0] < 0.0 < ways[-1]:
@@ -136,7 +138,7 @@ def _beside_pitch_point(mesh, marks):
 
 
 def _requested(mesh, table, place, on):
-    """(x, side)s of a requested point or path."""
+    """All (x, side) of a requested point or coordinate."""
     towards_tip = 1 if on == "pinion" else -1
     if isinstance(place, str):
         name, side = place.strip("+-"), place[len(place.strip("+-")):]

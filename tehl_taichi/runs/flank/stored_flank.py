@@ -1,4 +1,4 @@
-"""A flank as its folder keeps it: the positions with their summaries, the table, the figure."""
+"""Stored flank: a folder with the positions and their summaries, table, figure."""
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.runs.contact_set import PositionSet
@@ -32,17 +32,17 @@ class Flank(PositionSet):
 
     @property
     def positions(self) -> list:
-        """The :class:`tehl_taichi.runs.flank.positions.Position` of each."""
+        """The :class:`tehl_taichi.runs.flank.positions.Position` of every contact."""
         return [self._position(one) for one in self.record["positions"]]
 
     @property
     def points(self) -> dict:
-        """{letter A to E: x_pl in m} on this flank; {} of a table."""
+        """{letter A to E: x_pl in m} on this flank; {} for a table."""
         return self.record["geometry"].get("points_x_pl_m", {})
 
     @property
     def title(self) -> str:
-        """The flank in a line."""
+        """One-line description of the flank."""
         pair = self.record["geometry"]
         if "torque" not in pair:
             return f"{self.name}: flank of body a"

@@ -1,4 +1,4 @@
-"""Rows of a table that a user wrote (CSV): any separator, decimal commas, and columns in other units than the usual ones."""
+"""Rows of a user's CSV table: any separator, decimal commas, units in column names."""
 
 import csv
 import io
@@ -19,8 +19,9 @@ COLUMNS = {"angle_deg": ("angle", "deg", 1.0), "load_N_per_mm": ("load", "N/m", 
 
 
 def rows(path):
-    """(names of the columns, [{name: text}]) of a file, columns of other units under their usual names and in their units.
-    Raises SceneError."""
+    """(column names, [{name: text}]) of a file; columns in other units are converted to the usual names and units. Raises
+    SceneError.
+    """
     try:
         text = files.content(path).decode("utf-8-sig")
         mark = column_mark(text.partition("\n")[0]) or ","
@@ -39,7 +40,7 @@ def rows(path):
 
 
 def _column(head):
-    """(usual name, its unit as the user wrote it) of a column; the name alone of a usual or an unknown one, with unit ""."""
+    """(usual name, user's unit) of a column; unit "" for a usual or an unknown name."""
     if head in COLUMNS:
         return head, ""
     for name, (quantity, unit, _) in COLUMNS.items():
@@ -50,7 +51,7 @@ def _column(head):
 
 
 def _units(head, quantity):
-    """Readings of the unit in a head, as N/mm of load_N_per_mm or of load (N/mm), if it is of this quantity."""
+    """Possible units in a column head, such as N/mm of load_N_per_mm or of load (N/mm), if they fit the quantity."""
     if (match := BRACKETS.fullmatch(head)) and match[1] == quantity:
         return [match[2]]
     if not head.startswith(f"{quantity}_"):
@@ -60,7 +61,7 @@ def _units(head, quantity):
 
 
 def _value(name, unit, text, points):
-    """The text of a value with a decimal point, in the usual unit."""
+    """Text of a value with a decimal point, in the usual unit."""
     if points and (match := COMMA.fullmatch(text)):
         text = f"{match[1] or 0}.{match[2]}"
     if not unit or units.split(text) is None:

@@ -1,4 +1,4 @@
-"""The summary of a run: the JSON object of `tehl run --json`, its printed rows, the warnings about results.
+"""Summary of a run: the JSON object of `tehl run --json`, its printed rows, the warnings about results.
 
-`summary` assembles it from a store, `summary_rows` prints it; the other files find what is doubtful, one subject each.
+`summary` assembles it from a store, `summary_rows` prints it; the other files find doubtful results, one subject each.
 """

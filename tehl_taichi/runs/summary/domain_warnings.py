@@ -1,4 +1,4 @@
-"""Warnings about a domain that ends too near: sentences of (store, summary)."""
+"""Warnings about a domain that is too small: sentences from (store, summary)."""
 
 from tehl_taichi.scene import domain
 from tehl_taichi.scene.scales import Scales
@@ -9,7 +9,7 @@ MUCH, SOME = 0.01, 3e-3  # of the film: reported always; reported for ends that 
 
 
 def short(store, summary):
-    """A part of the domain in the error of the film that is large, or larger than that of the grid."""
+    """Warning if the part of the domain in the error of the film is large, or larger than that of the grid."""
     steady, g = summary.get("steady", {}), store.scene.grid
     parts = steady.get("error_parts", {}).get("h_c_m")
     if not parts or "inlet_gap" not in steady or g.inlet == "starved":
@@ -22,7 +22,7 @@ def short(store, summary):
 
 
 def starved(store, summary):
-    """An inlet that the scene starves, and what that takes of the film."""
+    """Warning about an inlet that the scene starves, with the film reduction."""
     lost, g = summary.get("steady", {}).get("inlet_lost", 0.0), store.scene.grid
     if g.inlet == "starved" and lost > MUCH:
         yield (f"grid.inlet = starved: the oil begins at {-g.x_min:g} a, which takes about {lost:.0%} of the film of a flooded "
@@ -30,7 +30,7 @@ def starved(store, summary):
 
 
 def _farther(scene, steady):
-    """Options of a domain that reaches far enough, on cells as large as before."""
+    """Options of a sufficiently large domain, with cells of the present size."""
     s, g = Scales.of(scene), scene.grid
     found = domain.remedy(scene, steady["h_c_m"] / s.h)
     farther = {key: end for key, end in found.items() if abs(end) > abs(getattr(g, key)) * (1 + 1e-9)}

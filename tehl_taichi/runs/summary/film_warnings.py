@@ -1,5 +1,6 @@
-"""Warnings about the film and the pressure of a stored run: friction, peaks and ripples; functions of (store, summary)
-that give their sentences."""
+"""Warnings about the film and the pressure of a stored run: friction, peaks and ripples; functions of (store, summary) that
+return sentences.
+"""
 
 import numpy as np
 
@@ -19,22 +20,24 @@ NO_VALUE = Option("oil without a shear limit has no finite value here; use --the
 
 
 def too_much_friction(store):
-    """["when value", ...] where the friction coefficient of the film alone is beyond that of any oil: the least that it may be,
-    as solid contact has at most the coefficient that the scene gives it."""
+    """["when value", ...] where the friction coefficient of the film exceeds that of any oil.
+
+    The value is a lower bound, because solid contact has at most the coefficient that the scene gives it.
+    """
     film = store.scalar("friction_coefficient") - store.scene.rheology.mu_boundary * store.scalar("contact_load_fraction")
     parts = ("steady", slice(0, 1)), ("in the passage up to", slice(1, None))
     return [f"{when} {film[part].max():.3g}" for when, part in parts if film[part].size and film[part].max() > MOST_FRICTION]
 
 
 def no_index(store):
-    """Why no index of fatigue follows from the tractions of a run, "" where one does."""
+    """Reason why the tractions of a run give no fatigue index, "" if they give one."""
     found = too_much_friction(store)
     return (f"the friction coefficient of the film ({', '.join(found)}) is more than {MOST_FRICTION:g}, which no oil reaches"
             if found else "")
 
 
 def friction(store, summary):
-    """Shear that no oil has."""
+    """Warning about shear beyond that of any oil."""
     rheology, found = store.scene.rheology, too_much_friction(store)
     if found:
         law = (f"a Newtonian film (rheology.law = {rheology.law}) has no limit; its film is valid, its friction is not"
@@ -45,15 +48,16 @@ def friction(store, summary):
 
 
 def _follow(scene, summary):
-    """Consequence of such a shear stress as text: it loads the surface and heats the film."""
+    """Text of the consequence of such a shear stress: it loads the surface and heats the film."""
     effects = ["the fatigue index is that of the pressure alone"] * ("fatigue" in summary and scene.fatigue.shear)
     effects += ["the temperatures that follow have no meaning"] * (not scene.isothermal)
     return f"; {' and '.join(effects)}" if effects else ""
 
 
 def unresolved(store, summary):
-    """Unresolved peaks of the steady state, and of the moment with the largest pressure of the passage, unless grids together
-    know it."""
+    """Warnings about unresolved peaks of the steady state, and of the moment with the largest pressure of the passage, unless a
+    sequence of grids resolves it.
+    """
     known = summary.get("transient", {}).get("error", {}).get("p_max_Pa") is not None
     for n in dict.fromkeys((0,) if known else (0, int(np.argmax(store.scalar("p_max_Pa"))))):
         p = store.fields(n, ("pressure",))["pressure"]
@@ -65,7 +69,7 @@ def unresolved(store, summary):
 
 
 def first_unresolved(store, summary):
-    """Position at which the resolved part of a passage ends, if before the outlet, which the error bars cover."""
+    """Warning about the end of the resolved part of a passage, if it is before the outlet, which the error bars cover."""
     part, a = searched(summary.get("fatigue", {})).get("resolved"), Scales.of(store.scene).a
     later = [n for n in range(1, len(store)) if part and store.feature_x(n) > (part["to_x_a"] + 1e-9) * a]
     if later:
@@ -89,7 +93,7 @@ def _moment(store, n):
 
 
 def _remedy(store, i):
-    """The Option that may resolve a peak at node i."""
+    """Option that may resolve a peak at node i."""
     if store.x[i] > 0 and _endless(store.scene):
         return NO_VALUE
     at_exit = readings.exits(store.x[i], Scales.of(store.scene).a)
@@ -97,26 +101,28 @@ def _remedy(store, i):
 
 
 def _because(store, i, remedy):
-    """Reason of an unresolved outlet: the frozen film ends in a free edge, a 1/sqrt that only a shear limit bounds."""
+    """Text of the reason for an unresolved outlet: the frozen film ends in a free edge, a 1/sqrt singularity that only a shear
+    limit bounds.
+    """
     endless = store.x[i] > 0 and _endless(store.scene)
     return f" and grows like 1/sqrt(cell); {remedy}" if endless else f"; a finer grid may resolve it: {remedy}"
 
 
 def finer_exit(scene, why):
-    """The grid to try where the error of a passage is unknown for this Reason, if that is its exit and a grid may help, or
-    ""."""
+    """Grid to try if the error of a passage is unknown for this Reason; "" if that is not its exit or no grid helps."""
     helps = code_of(why) == "exit" and scene.transient and not _endless(scene)
     return refinement.along(scene) if helps else ""
 
 
 def _endless(scene):
-    """Whether nothing bounds the pressure at a free edge of frozen oil."""
+    """Whether the pressure at a free edge of frozen oil is unbounded."""
     return scene.isothermal and not scene.rheology.thins
 
 
 def worst_ripple(store, entries):
     """((Pa, node), entry) of the largest :func:`tehl_taichi.march.accuracy.peaks.ripple` of the pressure among these
-    entries."""
+    entries.
+    """
     return max((ripple(store.fields(n, ("pressure",))["pressure"]), n) for n in entries)
 
 

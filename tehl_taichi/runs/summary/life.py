@@ -1,4 +1,4 @@
-"""Passages to the initiation of a crack at the worst point, by the slope of the S-N curve."""
+"""Passages to crack initiation at the worst point, from the slope of the S-N curve."""
 
 import math
 
@@ -11,8 +11,10 @@ LEAST = 1e-9  # of an index, below which no number of passages is of use
 
 
 def of_searches(searches, fatigue):
-    """The part "life" of a summary: {} without fatigue.exponent, or an index. searches: {surface: summary of its search}, with
-    their errors; fatigue: the section of the scene."""
+    """Part "life" of a summary; {} without fatigue.exponent or an index.
+
+    searches: {surface: summary of its search}, with errors; fatigue: the section of the scene.
+    """
     found = [(name, *part) for name, one in searches.items() if not why_none(one) for part in _parts(searched(one))]
     surface, worst, key = max(found, key=lambda one: one[1][one[2]], default=("", {}, ""))
     Fi, error = worst.get(key, 0.0), worst.get("error", {}).get(key)
@@ -26,13 +28,15 @@ def of_searches(searches, fatigue):
 
 
 def part(searches, fatigue):
-    """{"life": that part}, {} where there is none."""
+    """{"life": that part}, {} without one."""
     found = of_searches(searches, fatigue)
     return {"life": found} if found else {}
 
 
 def bar(passages, Fi, error, exponent):
-    """The error of passages: the larger side of what the error of the index leaves; None where it leaves everything."""
+    """Error of the number of passages: the larger side of its interval for the error of the index; None if the interval is
+    unbounded.
+    """
     if error is None or error >= Fi:
         return None
     try:
@@ -42,7 +46,7 @@ def bar(passages, Fi, error, exponent):
 
 
 def _parts(found):
-    """[(part of a search, its index)] at the surface and below it, as the verdict takes them."""
+    """[(part of a search, its index)] at the surface and below it, as in the verdict."""
     if found.get("rough"):
         both = found["statistics"], found.get("below", {}).get("statistics")
         return [(part, "p99") for part in both if part]
@@ -50,7 +54,7 @@ def _parts(found):
 
 
 def words(life):
-    """'a crack begins after 5.3e5 ± 0.4e5 passages', in words without the subject, for a part "life" of a summary."""
+    """Text such as 'a crack begins after 5.3e5 ± 0.4e5 passages', without a subject, for a part "life" of a summary."""
     number, error = life["passages"], life["error"]["passages"]
     text = with_error(number, error, digits=2) + ("" if error is not None else " (error unknown)")
     slope = f"by the exponent {life['exponent']:g} of the S-N curve"

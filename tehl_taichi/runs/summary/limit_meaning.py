@@ -1,4 +1,4 @@
-"""Meaning of a fatigue limit: the pressure of a smooth contact, and limits of a specimen."""
+"""Meaning of a fatigue limit: the equivalent pressure of a smooth contact, and equivalent limits of a specimen."""
 
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.laws.criteria import CRITERIA
@@ -6,8 +6,9 @@ from tehl_taichi.values.digits import with_error
 
 
 def smooth_pressure(summary):
-    """(Hertz pressure at which the smooth contact of a run would have the index 1, its error or None), Pa, in proportion; None
-    of a run without such an index."""
+    """(Hertz pressure (Pa) at which the smooth contact of a run would have the index 1, its error or None), by proportion; None
+    without such an index.
+    """
     alone = _alone(summary)
     if not alone or not alone["Fi_max"] > 0 or alone.get("error", {}).get("Fi_max") is None:
         return None
@@ -16,7 +17,7 @@ def smooth_pressure(summary):
 
 
 def _alone(summary):
-    """Index of the worse smooth body, {} where none is known."""
+    """Index of the worse smooth body, {} if none is known."""
     bodies = summary.get("fatigue_by_surface") or {"": summary.get("fatigue", {})}
     found = [part for one in bodies.values() if (part := searched(one).get("contact_alone"))]
     found = found or [summary["contact_alone"]] * ("contact_alone" in summary)
@@ -24,7 +25,7 @@ def _alone(summary):
 
 
 def sentence(summary, fatigue):
-    """Sentence about the meaning of the limit, "" where no smooth contact is known; fatigue: the section of the scene."""
+    """Sentence about the meaning of the limit, "" if no smooth contact is known; fatigue: the section of the scene."""
     if not (found := smooth_pressure(summary)):
         return ""
     value, error = (one * 1e-9 for one in found)
@@ -35,7 +36,7 @@ def sentence(summary, fatigue):
 
 
 def _in_tests(fatigue):
-    """Its amplitudes in reversed bending and torsion, where one limit holds for every depth and body."""
+    """Text of the equivalent limits in reversed bending and torsion, if one limit holds for every depth and body."""
     if any(map(fatigue.table_text, "ab")):
         return ""
     rule, limit = CRITERIA[fatigue.criterion], fatigue.endurance

@@ -1,4 +1,4 @@
-"""Warnings about the results of a run, a sentence each: the scene's own warnings and what its store shows."""
+"""Warnings about the results of a run, one sentence each: warnings of the scene, and those from its store."""
 
 import functools
 
@@ -23,18 +23,18 @@ CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a mome
 
 
 def warnings(store, summary):
-    """All warnings of a run, without repetition. store: of the run; summary: its numbers so far (see io.summary)."""
+    """All warnings of a run, without repetition. store: of the run; summary: its numbers so far."""
     checks = ROUGH_CHECKS if searched(summary.get("fatigue", {})).get("rough") else CHECKS
     return once([*store.scene.warnings(), *coded_warning(checks, store, summary)])
 
 
 def reached(store):
-    """Largest pressure (Pa) and film temperature (deg C) of a run with temperatures."""
+    """Largest pressure (Pa) and film temperature (deg C) of a thermal run."""
     return tuple(float(np.max(store.scalar(name))) for name in ("p_max_Pa", "film_max_C"))
 
 
 def beyond_measured(store, summary):
-    """Pressures and temperatures of the film beyond those at which its conductivity and heat capacity were measured."""
+    """Warnings about film pressures and temperatures beyond the measured range of conductivity and heat capacity."""
     if store.scene.isothermal or not beyond(conduction.LAWS, *reached(store)):
         return []
     p, T = reached(store)
@@ -45,7 +45,7 @@ def beyond_measured(store, summary):
 
 
 def held_temperatures(store, summary):
-    """Temperatures that the solver had to hold inside the allowed range."""
+    """Warning about temperatures that the solver limited to the allowed range."""
     held = 0 if store.scene.isothermal else int(np.nansum(store.scalar("clamped")))
     text = (f"temperatures were limited at {held} nodes, to the allowed range or (in columns without a solution) to the inlet "
             "temperature of the oil")
@@ -53,7 +53,7 @@ def held_temperatures(store, summary):
 
 
 def crowded(store, summary):
-    """Linear solves that fell back to one worker because others used the cores of the run."""
+    """Warning about linear solves that fell back to one worker because other programs used the cores of the run."""
     done, fewer = summary.get("crowding", (0, 0))
     if fewer <= CROWDED * done:
         return []
@@ -63,7 +63,7 @@ def crowded(store, summary):
 
 
 def of_single_peaks(store, summary):
-    """One sentence on rough surfaces: the extremes belong to single peaks, and which of them have no error bar."""
+    """One sentence on rough surfaces: extremes belong to single peaks; names of those without an error bar."""
     names = [name for names in _unknown(summary).values() for name in names]
     grid = finer_grid_option(store.scene)
     if names:
@@ -73,7 +73,7 @@ def of_single_peaks(store, summary):
 
 
 def unknown_errors(store, summary):
-    """Numbers whose error is unknown, with the reason; one sentence for all that share it."""
+    """Warnings about numbers with unknown error, with the reason; one sentence for all with the same reason."""
     for why, names in _unknown(summary).items():
         grid = film_warnings.finer_exit(store.scene, why)
         window = zoom_option(store.scene, functools.partial(_zoomed_work, store)) if grid else ""
@@ -89,12 +89,12 @@ def _zoomed_work(store, factor):
 
 
 def few(names):
-    """Names in a sentence, the first of many: all of them are in the data of the warning and in the table of errors."""
+    """Text of names, abbreviated if there are many; the warning's data and the error table have all of them."""
     return ", ".join(names) if len(names) <= MANY else f"{', '.join(names[:FIRST])} and {len(names) - FIRST} more numbers"
 
 
 def _unknown(summary):
-    """{reason: names of the numbers whose error it leaves unknown}."""
+    """{reason: names of the numbers whose error is unknown for it}."""
     searches = by_surface(summary)
     reasons: dict[Reason, list[str]] = {}
     parts = [(summary.get("steady", {}), "steady ", ""), (summary.get("transient", {}), "passage ", ""),
@@ -108,7 +108,7 @@ def _unknown(summary):
 
 
 def _of_search(fatigue, body):
-    """[(part, "", words behind its numbers)] of a fatigue search; body: whose, in words."""
+    """[(part, "", text after its numbers)] of a fatigue search; body: its name as text."""
     early, deep, of_it = fatigue.get("resolved", {}), " below the surface", " of the resolved part"
     return [(fatigue.get("contact_alone", {}), "", f" of the smooth contact{body}"), (fatigue, "", body),
             (fatigue.get("below", {}), "", deep + body), (early, "", of_it + body),
@@ -116,7 +116,7 @@ def _of_search(fatigue, body):
 
 
 def zoom_ended(store, summary):
-    """A window that did not reach the end of its path."""
+    """Warning about a window that did not reach the end of its path."""
     zoom = summary.get("zoom", {})
     if zoom.get("ended"):
         to = "nowhere" if zoom["to_a"] is None else f"up to {zoom['to_a']:.2f} a"
@@ -125,12 +125,14 @@ def zoom_ended(store, summary):
 
 
 def largest_pressure(summary):
-    """Pa, of the steady start and of the passage."""
+    """Largest pressure (Pa) of the steady start and the passage."""
     return max(summary.get(part, {}).get("p_max_Pa", 0.0) for part in ("steady", "transient"))
 
 
 def yielding(store, summary):
-    """Stresses under which a body would yield, while both stay elastic here; where none were searched, such pressures."""
+    """Warning that a body would yield although both are elastic here: by its stresses, or by the pressure if no stress was
+    searched.
+    """
     elastic = "both bodies are elastic here, while real ones would yield and flatten in the first passages"
     p, found = largest_pressure(summary), summary.get("von_mises")
     if "run_in" in summary:
@@ -147,12 +149,12 @@ def yielding(store, summary):
 
 
 def steel_bodies(summary):
-    """Names of the bodies whose steel flowed in run-in."""
+    """Names of the bodies whose steel yielded during run-in."""
     return summary.get("run_in", {}).get("by_surface", {})
 
 
 def running_in(store, summary):
-    """What is doubtful about a run-in."""
+    """Warnings about a run-in."""
     if not (found := summary.get("run_in")):
         return
     new, before = found["new_plastic_strain"], found["plastic_strain_max"]
@@ -170,7 +172,7 @@ def running_in(store, summary):
 
 
 def _beyond_run_in(scene, zoom):
-    """A window with a higher pressure than that under which the steel flowed."""
+    """Warning about a window whose pressure is higher than that of the run-in."""
     p, now = (zoom["base"]["p_max_Pa"], zoom["p_max_Pa"]) if zoom else (0.0, 0.0)
     if now <= max((1 + ABOVE) * p, yield_stress.pressure(scene)):
         return
@@ -180,13 +182,13 @@ def _beyond_run_in(scene, zoom):
 
 
 def place(found, um="um"):
-    """Place of a von Mises stress as text."""
+    """Text of the place of a von Mises stress."""
     at = f"surface {found['surface']}"
     return f"{micrometres(found['depth_m'])} {um} below {at}" if found["depth_m"] else f"at {at}"
 
 
 def worst_below(store, summary):
-    """The surface is not where the body is worst loaded."""
+    """Warning that the worst point of a body is below its surface."""
     fatigue = searched(summary.get("fatigue", {}))
     deep = fatigue.get("below")
     if not deep or deep["Fi_max"] <= fatigue["Fi_max"]:

@@ -1,4 +1,4 @@
-"""Worst points that lie where a measured map ends: what is worst there may be the rim's, not the surface's."""
+"""Warnings about worst points at the rim of a measured map: the rim may cause them."""
 
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.scene.feature_wording import passing
@@ -8,7 +8,7 @@ NEAR = 2  # cells of the grid: so near to an edge that a stress is of both its s
 
 
 def rims(store, summary):
-    """A sentence for every worst point at the rim of a map; of those of the resolved part first, each place once."""
+    """One sentence for every worst point at the rim of a map, each place once; the resolved part first."""
     found = searched(summary.get("fatigue", {}))
     seen = set()
     for part, of in ((found.get("resolved", {}), " of the resolved part"), (found, "")):
@@ -28,7 +28,7 @@ def _of_point(scene, point, name):
 
 
 def _side(f, distance, whose):
-    """Distance from the rim, and the surface beyond it, as text."""
+    """Text of the distance from the rim, and of the surface beyond it."""
     rim = f"{abs(distance) * 1e6:.0f} um {'inside' if distance >= 0 else 'outside'} the rim along which the {whose} ends"
     if 0 <= distance <= f.taper:
         return (f"{rim}, within its taper of {f.taper * 1e6:.3g} um: the heights fade out there, so its index is not that of "
@@ -38,7 +38,7 @@ def _side(f, distance, whose):
 
 
 def _advice(f, axis):
-    """Advice that moves the rim away: a wider patch, if the file has one."""
+    """Advice to move the rim away: a wider patch, if the file has one."""
     n = "xy".index(axis)
     if f.patch[n] < f.size[n] * (1 - 1e-9):
         return f"a larger feature.extent_{axis} moves the rim away (the file has {f.size[n] * 1e3:.3g} mm)"

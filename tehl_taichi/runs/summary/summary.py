@@ -1,4 +1,4 @@
-"""The summary of a run, assembled from its store: the JSON object of `tehl run --json` (SI units in the names)."""
+"""Summary of a run, assembled from its store: the JSON object of `tehl run --json` (SI units in the names)."""
 
 import numpy as np
 
@@ -21,13 +21,15 @@ from tehl_taichi.values.coded_warning import lists
 
 
 def summarise(store, extra, searches=None):
-    """Summary dictionary. extra: wall_s, compile_s (kernels traced, compiled or loaded), crowding (see
-    :func:`tehl_taichi.engine.task_pool.crowding`, here of this run; optional), steady_error, steady_unknown, steady_parts and
-    steady_domain (see :class:`tehl_taichi.march.snapshot.Snapshot`), steady_contact_alone (see
-    :func:`tehl_taichi.march.accuracy.contact_alone_bars.searches`), passage_error, passage_unknown and passage_parts alike;
-    zoom (see :func:`tehl_taichi.runs.zoomed_run.summary`) and run_in (see :mod:`tehl_taichi.plastic.run_in_numbers`; both
-    optional); searches: {surface: summary of its fatigue search}, the
-    worse one first, or None."""
+    """Summary dictionary of a run.
+
+    extra: wall_s; compile_s (kernels traced, compiled or loaded); crowding (see :func:`tehl_taichi.engine.task_pool.crowding`,
+    of this run; optional); steady_error, steady_unknown, steady_parts and steady_domain (see
+    :class:`tehl_taichi.march.snapshot.Snapshot`); steady_contact_alone (see
+    :func:`tehl_taichi.march.accuracy.contact_alone_bars.searches`); passage_error, passage_unknown and passage_parts; zoom (see
+    :func:`tehl_taichi.runs.zoomed_run.summary`) and run_in (see :mod:`tehl_taichi.plastic.run_in_numbers`), both optional.
+    searches: {surface: summary of its fatigue search}, the worse one first, or None.
+    """
     scene = store.scene
     scales, zoom = Scales.of(scene), extra.get("zoom", {})
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
@@ -62,7 +64,7 @@ def summarise(store, extra, searches=None):
 
 
 def _von_mises(out):
-    """The largest von Mises stress of the body that is nearest to its yield stress, where stresses were searched."""
+    """Largest von Mises stress of the body nearest to its yield stress, if stresses were searched."""
     searches = out.get("fatigue_by_surface") or out.get("contact_alone_by_surface", {})
     found = [part for one in searches.values() if (part := searched(one).get("von_mises"))]
     worst = max(found, key=lambda part: part["max_Pa"] / part["yield_stress_Pa"], default=None)
@@ -70,7 +72,7 @@ def _von_mises(out):
 
 
 def _peclet(scene, scales):
-    """Peclet numbers u a/alpha of both surfaces, where temperatures are computed."""
+    """Peclet numbers u a/alpha of both surfaces, if temperatures are computed."""
     o = scene.operation
     each = (("a", scene.body_a, o.u_a), ("b", scene.body_b, o.u_b))
     return {} if scene.isothermal else {"peclet": {name: peclet(body, u, scales) for name, body, u in each}}
@@ -84,21 +86,24 @@ def so_far(store):
 
 
 def _run_in_so_far(store):
-    """Passages of run-in that were made, and rounds of the one that runs."""
+    """Completed passages of the run-in, and rounds of the current one."""
     state = store.run_in
     return {"run_in": {"passages": state.passages, "rounds": state.rounds, "done": state.done}} if state else {}
 
 
 def counts(store):
-    """grid: nodes that were computed, nz of them across the film; cells: as [grid] of the scene and --grid count them, ny of
-    the half domain y >= 0 (on the whole domain that is 2 ny + 1 nodes), 0 where nothing varies across (one row of nodes)."""
+    """Counts. grid: computed nodes, nz of them across the film; cells: as in [grid] and --grid.
+
+    ny cells are those of the half domain y >= 0 (the whole domain has 2 ny + 1 nodes); 0 without variation along y (one row of
+    nodes).
+    """
     scene, grid = store.scene, store.scene.grid
     return {"grid": {"nx": store.x.size, "ny": store.y.size, "nz": 1 if scene.isothermal else scene.thermal.nodes},
             "cells": {"nx": grid.nx, "ny": 0 if scene.one_dimensional else grid.ny}}
 
 
 def domain_of(scene):
-    """Ends of the domain in half-widths of the contact, and whether the program chose where it begins."""
+    """Ends of the domain in half-widths of the contact, and whether the program chose the inlet."""
     g = scene.grid
     ends = {"x_min_a": float(g.x_min), "x_max_a": float(g.x_max), "y_max_b": float(g.y_max)}
     return {**ends, "auto": isinstance(g.x_min, AutomaticValue)}
@@ -114,7 +119,7 @@ def _clamps(store):
 
 
 def _hertz(scales):
-    """Half-axes and pressure of the dry contact; b along y where it ends there."""
+    """Half-axes and pressure of the dry contact; b along y for point contacts."""
     across = {} if scales.line else {"b_m": scales.b}
     return {"a_m": scales.a, **across, "p_Pa": scales.p_H}
 
@@ -129,12 +134,12 @@ def _steady(store, extra):
 
 
 def _before(known):
-    """Numbers of the inlet: the gap there over the film, the share of it that a border without pressure would take."""
+    """Numbers of the inlet: gap over film there, and the film reduction by a border without pressure."""
     return {"inlet_gap": known["gap"], "inlet_lost": known["lost"]} if known else {}
 
 
 def _roughness(scene, steady):
-    """Numbers of the rough surfaces, and lambda: the central film without them over the rms height of both together."""
+    """Numbers of the rough surfaces, and lambda: central film of the smooth contact over the combined rms height."""
     found = surface_roughness.by_surface(scene)
     if not found:
         return {}
@@ -146,7 +151,7 @@ def _roughness(scene, steady):
 
 
 def _parts(out):
-    """[(part of the summary after the start, {its number that has an error bar: that number's name among the errors})]."""
+    """[(part of the summary, {number with an error bar: its name among the errors})]."""
     parts = [(out.get("transient"), {entry.key: entry.key for entry in quantities.of_part("transient") if entry.error}),
              (out.get("run_in"), {key: of_run_in(key) for key in RUN_IN}),
              *((part, {FI: name}) for name, part in indices(out.get("fatigue_by_surface", {})).items()),
@@ -161,13 +166,13 @@ def _transient(store):
 
 
 def _numbers(store, part):
-    """{key: value} of the numbers of a part that :mod:`tehl_taichi.march.quantities` declares."""
+    """{key: value} of the numbers of a part declared in :mod:`tehl_taichi.march.quantities`."""
     return {entry.key: entry.of(store.scalar(entry.series), _steps_of(store))
             for entry in quantities.of_part(part, store.scene)}
 
 
 def _steps_of(store):
-    """Time steps that every entry after the first stands for."""
+    """Number of time steps that every entry after the first represents."""
     return np.diff(store.scalar("step"))
 
 

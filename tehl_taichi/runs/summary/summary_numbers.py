@@ -1,4 +1,4 @@
-"""Every number of a summary by its full name, with its error, unit and the reason where the error is not known."""
+"""All numbers of a summary by their full names, with error, unit, and the reason of an unknown error."""
 
 from tehl_taichi.errors import UnknownName
 from tehl_taichi.values.checks import nearest
@@ -11,7 +11,7 @@ BARS = ("error", "unknown", "unknown_codes", "error_parts")  # of a part: not nu
 
 
 def every(summary):
-    """{full name, as "transient.p_max_Pa": Quantity} of all numbers of a summary."""
+    """{full name, such as "transient.p_max_Pa": Quantity} of all numbers of a summary."""
     return dict(_numbers(summary, ""))
 
 
@@ -27,7 +27,7 @@ def _numbers(values, above):
 
 
 def find(summary, name):
-    """The Quantity of that name, with or without its part and its unit. Raises UnknownName."""
+    """Quantity with this name, with or without its part and its unit. Raises UnknownName."""
     known = every(summary)
     fitting = [full for full in known if name in _names(full)]
     if not fitting:
@@ -36,7 +36,7 @@ def find(summary, name):
 
 
 def _names(full):
-    """All names by which a full one is known."""
+    """All short names of a full one."""
     part, _, key = full.rpartition(".")
     keys = {key, _bare(key)}
     return keys | {f"{part}.{one}" for one in keys}
@@ -53,6 +53,6 @@ def _short(known):
 
 
 def _order(full):
-    """Parts in the order of FIRST, numbers of a part before those of parts inside it."""
+    """Sort key: parts in the order of FIRST, numbers of a part before those of parts inside it."""
     parts = full.split(".")
     return FIRST.index(parts[0]) if parts[0] in FIRST else len(FIRST), len(parts)

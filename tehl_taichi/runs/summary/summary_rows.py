@@ -1,4 +1,4 @@
-"""The summary of a run as people read it: rows of (quantity, value with its error and unit). Needs no taichi."""
+"""Printed summary of a run: rows of (quantity, value with its error and unit). Needs no taichi."""
 
 import math
 from dataclasses import dataclass, replace
@@ -20,10 +20,10 @@ SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # par
 
 @dataclass(frozen=True)
 class SummaryRow:
-    """what: the quantity, the same words for every run; value: with error and unit; number: the value alone where it is one
-    whose relative change means something; where: place of this run's value, which completes `what`; note: behind the value;
-    part: of the fatigue search that it is of, else ""; error: bar of the number; nothing: size below which that is nearly
-    nothing."""
+    """what: the quantity, equal words for every run; value: with error and unit; number: the value alone if its relative change
+    has a meaning; where: place of this value, completes `what`; note: text after the value; part: of the fatigue search, else
+    ""; error: bar of the number; nothing: size below which the number counts as zero.
+    """
 
     what: str
     value: str
@@ -36,32 +36,32 @@ class SummaryRow:
 
     @property
     def text_pair(self):
-        """(quantity, value) in words."""
+        """(quantity, value) as printed."""
         return self.what + self.where, self.value + self.note
 
 
 def title(summary):
-    """Heading of its table."""
+    """Title of the table."""
     return f"{summary['scene']}: {summary['steps']} steps, store {summary['store']}"
 
 
 def summary_rows(summary):
-    """(quantity, value) of the summary of a finished run."""
+    """[(quantity, value)] of the summary of a finished run."""
     return [row.text_pair for row in rows_of(summary)]
 
 
 def fatigue_rows(f, beside=MappingProxyType({})):
-    """(quantity, value) of a fatigue summary."""
+    """[(quantity, value)] of a fatigue summary."""
     return [row.text_pair for row in rows_of_fatigue(f, beside)]
 
 
 def life_rows(passages):
-    """(quantity, value) of {"life": that part of a summary}, or of {}."""
+    """[(quantity, value)] of {"life": that part of a summary}, or of {}."""
     return [row.text_pair for row in _life_rows(passages)]
 
 
 def rows_of(summary):
-    """A list of :class:`SummaryRow` of the summary of a finished run."""
+    """List of :class:`SummaryRow` of the summary of a finished run."""
     steady, hertz = summary["steady"], summary["hertz"]
     rows = [SummaryRow("Hertz half-width a", f"{hertz['a_m'] * 1e3:.4f} mm", hertz["a_m"]),
             *([SummaryRow("Hertz half-axis b, across", f"{hertz['b_m'] * 1e3:.4f} mm", hertz["b_m"])] if "b_m" in hertz
@@ -79,19 +79,19 @@ def rows_of(summary):
 
 
 def _labelled(part, values):
-    """The rows of the numbers of a part that have a label; not of those that its run did not know."""
+    """Rows of the numbers of a part that have a label and a value."""
     return [_of(values, entry.key, entry.label, entry.factor, entry.shown)
             for entry in quantities.of_part(part) if entry.label and entry.key in values]
 
 
 def _of(values, key, what, factor=1, unit="", **more):
-    """The SummaryRow of one of the values with its error."""
+    """SummaryRow of one of the values with its error."""
     return SummaryRow(what, quantity(values, key, factor, unit), values[key], error=values.get("error", {}).get(key),
                       nothing=nothing_of(key), **more)
 
 
 def quantity(values, name, factor=1, unit=""):
-    """'value ± error unit' of one of the values; three digits where the error is not known."""
+    """Text 'value ± error unit' of one of the values; three digits if the error is not known."""
     value, error = values[name] * factor, values.get("error", {}).get(name)
     if error is None:
         return f"{with_error(value, None, unit, 3)} (error unknown)"
@@ -99,7 +99,7 @@ def quantity(values, name, factor=1, unit=""):
 
 
 def _roughness_rows(summary):
-    """Roughness of each surface, before its filters too, and the film over them."""
+    """Roughness of each surface, also before its filters, and film over roughness."""
     out = []
     for name, numbers in summary.get("roughness", {}).items():
         of = "both surfaces" if name == "combined" else f"surface {name}"
@@ -108,7 +108,7 @@ def _roughness_rows(summary):
 
 
 def _heights(of, numbers):
-    """Mean, rms and range, as far as known."""
+    """Rows of the known mean, rms and range of heights."""
     known = [key for key in (numbers or {}) if key in HEIGHTS]
     values = " / ".join(f"{numbers[key] * 1e6:.3g}" for key in known)
     rms = next((numbers[key] for key in known if key in ("Sq_m", "Rq_m")), None)
@@ -137,7 +137,7 @@ def _heat_rows(when, values):
 
 
 def _temperature(value, error, unknown):
-    """A temperature (deg C) with its error; unknown: what stands in place of that where it is None."""
+    """Text of a temperature (deg C) with its error; unknown: text in place of an unknown error."""
     return f"{value:.1f}{unknown}" if error is None else with_error(value, error)
 
 
@@ -173,7 +173,7 @@ def _meaning_rows(summary):
 
 
 def _run_in_rows(found):
-    """What run-in left."""
+    """Rows of the run-in."""
     if not found:
         return []
     made = SummaryRow("passages of run-in", f"{found['passages']}", found["passages"],
@@ -188,7 +188,7 @@ def _run_in_rows(found):
 
 
 def _zoom_rows(zoom):
-    """The window, and what the run has without it."""
+    """Rows of the window, and of the largest numbers without it."""
     if not zoom:
         return []
     wide, high = zoom["window_a"]
@@ -201,8 +201,9 @@ def _zoom_rows(zoom):
 
 
 def rows_of_fatigue(f, beside=MappingProxyType({})):
-    """A list of :class:`SummaryRow` of a fatigue summary (see :func:`_rows_of_search`), and the indices of the other body in
-    `beside` {surface: summary}; where the tractions give no index, the reason, then the rows of the pressure alone."""
+    """List of :class:`SummaryRow` of a fatigue summary (see :func:`_rows_of_search`), and the indices of the other body in
+    `beside` {surface: summary}. If the tractions give no index: the reason, then the rows of the pressure alone.
+    """
     why = why_none(f)
     rows = [*_worse(f, beside), *_alone_rows(searched(f).get("contact_alone")), *_distribution_rows(searched(f)),
             *_rows_of_search(searched(f)),
@@ -217,7 +218,7 @@ def _worse(f, beside):
 
 
 def _distribution_rows(f):
-    """Statistics of the index: of a rough surface and below it, of the share above 1 under a single feature."""
+    """Statistics of the index: for rough surfaces at and below the surface; for a single feature the share above 1."""
     if "statistics" not in f:
         return []
     top, deep = f["statistics"], f.get("below", {}).get("statistics")
@@ -238,7 +239,7 @@ def _percentiles(part, where, at, of):
 
 
 def _alone_rows(alone):
-    """Indices of the smooth body, of which the surface may be the worst place; none of a search by an older version."""
+    """Indices of the smooth body, whose worst place may be the surface; empty for searches by older versions."""
     if not alone:
         return []
     surface = _of(alone, "surface_Fi_max", "Fi_max of the smooth contact at the surface", part=SURFACE)
@@ -247,7 +248,7 @@ def _alone_rows(alone):
 
 
 def _rows_of_other(name, f):
-    """The largest indices of the other body."""
+    """Largest indices of the other body."""
     deep = f.get("below")
     rows = [_of(f, "Fi_max", "Fi_max of the other body", where=f" ({name}), at its surface", part=SURFACE)]
     return rows + ([_of(deep, "Fi_max", "Fi_max of the other body, below", where=f" ({name}){_at(deep)}", part=BELOW)]
@@ -255,8 +256,9 @@ def _rows_of_other(name, f):
 
 
 def _rows_of_search(f):
-    """A list of :class:`SummaryRow` of what a search found: the worst point of the surface, then of what lies below; where the
-    grid does not resolve every pressure first those of the part before, on which the answer rests."""
+    """List of :class:`SummaryRow` of a search: the worst point of the surface, then the worst one below it. If the grid does
+    not resolve every pressure, the resolved part comes first, on which the verdict rests.
+    """
     rows = [_of(f, "Fi_max", "Fi_max at the surface", where=_whole(f)),
             _judged_stress(f, f["criterion"]), *_point_rows(f, _frame(f)),
             _stress("largest principal stress at the surface", f["sigma1_max_Pa"]), _constants_row(f),
@@ -283,7 +285,7 @@ def _stressed_rows(f):
 
 
 def _von_mises_rows(f):
-    """The largest von Mises stress of the body, beside its yield stress."""
+    """Largest von Mises stress of the body, and its yield stress."""
     if not (found := f.get("von_mises")):
         return []
     where = _at(found) if found["depth_m"] else ", at the surface"
@@ -302,13 +304,13 @@ def _averaged_rows(f):
 
 
 def _whole(f):
-    """Text after a value of all counted moments, if a part of them has a row of its own or others are left out."""
+    """Text after a value of all counted moments, if a part of them has its own row or others are left out."""
     part = between(f.get("from_x_a", -math.inf), f.get("to_x_a", math.inf)) or "whole passage" * ("resolved" in f)
     return f", {part}" if part else ""
 
 
 def _resolved_rows(f):
-    """Rows of the moments at which the grid resolves the pressure, if it does not resolve all."""
+    """Rows of the moments whose pressure the grid resolves, if it does not resolve all."""
     if "resolved" not in f:
         return []
     part, deep = f["resolved"], f["resolved"].get("below")
@@ -321,17 +323,17 @@ def _resolved_rows(f):
 
 
 def _placed(point, when):
-    """Place and plane of a worst point."""
+    """Rows with place and plane of a worst point."""
     return [replace(row, what=f"{row.what}, {when}") for row in _point_rows(point)[:2]]
 
 
 def _frame(f):
-    """Text after a place on the body without the feature, whose frame moves against that of the feature."""
+    """Text after a place on the body without the feature, whose frame moves relative to the feature."""
     return "" if f.get("carries_feature", True) else " (feature centre at X = 0)"
 
 
 def _point_rows(f, frame=""):
-    """The worst point of the surface or below it."""
+    """Rows of the worst point at the surface or below it."""
     low, high = f.get("pit_angles_deg", (None, None))
     pits = "" if low is None else f" (usual for pits: {low:g} to {high:g})"
     rows = [SummaryRow("at x, y from the feature centre", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um", note=frame),
@@ -357,8 +359,7 @@ def _constants_row(f):
 
 
 def _local_rows(deep):
-    """Rows of the strength table at the depth of the worst point, and of the residual stress there; none without a table and
-    run-in."""
+    """Rows of the strength table and of the residual stress at the depth of the worst point; empty without table and run-in."""
     if "residual_xx_Pa" not in deep:
         return []
     stress = " / ".join(f"{deep[f'residual_{axis}_Pa'] / 1e6:.4g}" for axis in ("xx", "yy"))
@@ -367,8 +368,9 @@ def _local_rows(deep):
 
 
 def contact_share(t, key=CONTACT):
-    """The largest share of solid contact in the load, or (key AREA) in the area: none, with its error, or as no more than what
-    this grid has."""
+    """Text of the largest share of solid contact in the load, or in the area (key AREA): none, with its error, or as an upper
+    bound that this grid allows.
+    """
     share, error = t[key], t.get("error", {}).get(key)
     if share == 0:
         return "none"
@@ -376,7 +378,7 @@ def contact_share(t, key=CONTACT):
 
 
 def _judged_stress(part, criterion):
-    """The stress behind an index, which has the relative error of that."""
+    """Row of the stress behind an index, with the relative error of the index."""
     Fi, bar, stress = part["Fi_max"], part.get("error", {}).get("Fi_max"), part["findley_stress_max_Pa"]
     return replace(_stress(f"{criterion} stress", stress), error=abs(bar / Fi) * stress if bar is not None and Fi else None)
 

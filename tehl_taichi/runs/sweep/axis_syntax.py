@@ -23,7 +23,7 @@ DIGITS = 12  # of the values of a range: 0.1 * 3 is 0.3 there
 
 @dataclass(frozen=True)
 class Axis:
-    """Keys (as the user wrote them) that change together, and a row of values, one a key, for each of their steps."""
+    """Keys (as the user wrote them) that change together, and rows with one value per key for each step."""
 
     keys: tuple
     rows: tuple
@@ -35,7 +35,9 @@ class Axis:
 
 @dataclass(frozen=True)
 class Span:
-    """Everything from low to high, for samples; log: evenly in the logarithm; unit: that the user wrote, "" for SI."""
+    """Interval from low to high, for samples; log: evenly distributed in the logarithm; unit: as the user wrote it, "" for
+    SI.
+    """
 
     low: float
     high: float
@@ -43,21 +45,21 @@ class Span:
     unit: str = ""
 
     def converted(self, convert):
-        """The span in SI; convert: function of a list of texts with units."""
+        """Span in SI; convert: function of a list of texts with units."""
         if not self.unit:
             return self
         low, high = convert([_with_unit(end, self.unit) for end in (self.low, self.high)])
         return Span(low, high, self.log)
 
     def at(self, share):
-        """Value at a share 0..1 of it."""
+        """Value at a share 0..1 of the span."""
         if self.log:
             return math.exp(math.log(self.low) + share * math.log(self.high / self.low))
         return self.low + share * (self.high - self.low)
 
 
 def axis_of(text):
-    """Axis of one --over: 'key=values', or several of them with blanks between, which change together. Raises SceneError."""
+    """Axis of one --over: 'key=values', or several with blanks between, which change together. Raises SceneError."""
     pairs = _pairs(text)
     return axis([key for key, _ in pairs], [parsed(values) for _, values in pairs])
 
@@ -72,7 +74,7 @@ def _pairs(text):
 
 
 def axis(keys, columns):
-    """Axis of keys with a column of values each. Raises SceneError where columns differ in length or a row comes twice."""
+    """Axis of keys with a column of values each. Raises SceneError for columns of different length or a repeated row."""
     if any(isinstance(column, Span) for column in columns):
         key, span = next((k, c) for k, c in zip(keys, columns) if isinstance(c, Span))
         raise SceneError(f"{key} = {span.low:g}:{span.high:g} has no number of values; use {span.low:g}:{span.high:g}:N, or "
@@ -93,8 +95,10 @@ def axis(keys, columns):
 
 
 def parsed(text):
-    """List of values, or Span, of 'a,b,c', 'a:b:n', 'a:b:n:log' or 'a:b'; numbers may have units, one behind the last number
-    holds for all. Raises SceneError."""
+    """List of values, or Span, of 'a,b,c', 'a:b:n', 'a:b:n:log' or 'a:b'. Raises SceneError.
+
+    Numbers may have units; a unit after the last number holds for all.
+    """
     if (found := _range(text)) is not None:
         return found
     items = _items(text)
@@ -103,8 +107,9 @@ def parsed(text):
 
 
 def _unit_of_all(text, items):
-    """Unit that the last of several numbers has and the others lack; "" where each has its own, or none. Raises SceneError
-    where only some have one."""
+    """Unit that only the last of several numbers has; "" if each number has one, or none. Raises SceneError if only some have
+    one.
+    """
     found = [units.split(item) for item in items]
     own = [one[1] for one in found if one]
     if len(own) < len(items) or not any(own) or all(own):
@@ -121,7 +126,7 @@ def _with_unit(value, unit):
 
 
 def column(values):
-    """An axis from Python: an array, a list, or text as above; a number is a list of one."""
+    """Values of an axis from Python: an array, a list, or text as above; a number is a list of one."""
     if isinstance(values, (Span, list)):
         return values if isinstance(values, Span) else [plain(value) for value in values]
     if isinstance(values, str):
@@ -141,7 +146,7 @@ def _listed(item, unit):
 
 
 def _range(text):
-    """Values, or the Span, of text with colons between numbers; None for other text. Raises SceneError."""
+    """Values, or the Span, of a text with colons between numbers; None for other texts. Raises SceneError."""
     match = RANGE.fullmatch(text)
     low, high = [units.split(end) for end in match.groups()[:2]] if match else [None, None]
     if match is None or low is None or high is None:
@@ -161,14 +166,14 @@ def _range(text):
 
 
 def _refuse_colons(text):
-    """Refuse what begins like a range and is none. Raises SceneError."""
+    """Refuse a text that looks like a range but is none. Raises SceneError."""
     ends = text.split(":")
     if len(ends) > 1 and not set(text) & set(",\"'[]{}") and units.split(ends[0]) and (units.split(ends[1]) or not ends[1]):
         raise SceneError(f"{text.strip()} is no range; allowed: low:high:N with a whole number N, or low:high:N:log, {FORMS}")
 
 
 def _unit_behind(text, low, high, unit):
-    """Both ends with a unit that stands behind the whole range."""
+    """Both ends with the unit that follows the whole range."""
     if low[1] or high[1]:
         raise SceneError(f"{text.strip()}: {shown(unit)} is one unit too many; give the unit of the ends or one at the end")
     return (low[0], unit), (high[0], unit)
@@ -190,12 +195,12 @@ def _spread(a, b, count, log):
 
 
 def _rounded(value, length):
-    """A value of a range as people write it, and 0 where it is 0: SRR 5e-17 is a scene with slip."""
+    """Rounded value of a range; exactly 0 near 0, because SRR = 5e-17 would be a scene with slip."""
     return 0.0 if abs(value) < 10**-DIGITS * length else float(f"{value:.{DIGITS}g}")
 
 
 def _items(text):
-    """Text cut at commas that are not inside brackets or quotes."""
+    """Items of a text between commas that are not inside brackets or quotes."""
     items, depth, quote, start = [], 0, "", 0
     for n, letter in enumerate(text):
         if quote:
@@ -211,7 +216,7 @@ def _items(text):
 
 
 def _value(text):
-    """A value as TOML reads it; what is no TOML value is text."""
+    """Value of a text by the rules of TOML; if it is no TOML value, the text itself."""
     if not text:
         raise SceneError(f"a value is missing between two commas, {FORMS}")
     try:
@@ -222,7 +227,8 @@ def _value(text):
 
 def over_of(texts, sampled=False):
     """{key, or tuple of keys that change together: values} of several --over, for :func:`tehl_taichi.runs.sweep.plan.plan`.
-    Raises SceneError. sampled: values may be spans."""
+    Raises SceneError. sampled: values may be spans.
+    """
     out = {}
     for text in texts:
         pairs = _pairs(text)

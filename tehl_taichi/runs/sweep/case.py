@@ -1,4 +1,4 @@
-"""One case of a sweep, as a worker runs it: into its store, from where an earlier attempt stopped, to a record."""
+"""One case of a sweep, as a worker runs it: into its store, resumed if an earlier attempt stopped; gives a record."""
 
 import contextlib
 import socket
@@ -13,8 +13,9 @@ from tehl_taichi.scene import Scene
 
 @dataclass(frozen=True)
 class CaseJob:
-    """scene: of the case; store: path of its store, None to keep its summary alone; threads: of the engine (None: those of a
-    running engine, otherwise all); shared: whether other workers of this machine want the same kernels."""
+    """scene: of the case; store: path of its store, None to keep only its summary; threads: of the engine (None: those of a
+    running engine, otherwise all); shared: other workers of this machine need the same kernels.
+    """
 
     scene: Scene
     store: str | None
@@ -23,9 +24,10 @@ class CaseJob:
 
 
 def work(job, progress=None):
-    """{"status", "reason", "summary", "seconds"} of a case; what the disk or the machine refuses is a failed one.
+    """Run a case: {"status", "reason", "summary", "seconds"}; errors of the disk or the machine give a failed case.
 
-    progress: who listens to the run, a :class:`tehl_taichi.runs.progress.Progress`."""
+    progress: listener of the run, a :class:`tehl_taichi.runs.progress.Progress`.
+    """
     began = time.perf_counter()
     status, reason, summary = "converged", "", None
     try:
@@ -49,7 +51,7 @@ def _summary(job, progress):
 
 
 def _run(job, path, progress):
-    """Summary of the run in the store at `path`: begun, resumed, or done before."""
+    """Summary of the run in the store at `path`: started, resumed, or already finished."""
     from tehl_taichi.runs import single_run
 
     _free(path)
@@ -57,7 +59,7 @@ def _run(job, path, progress):
 
 
 def _free(path):
-    """Take over what a worker of another machine left locked: it is gone, else the case were still its own."""
+    """Take over the lock of a worker on another machine; the worker is gone, otherwise it would still have the case."""
     from tehl_taichi.disk.drafts import PART, staging_path
     from tehl_taichi.disk.links import is_folder
     from tehl_taichi.disk.locks import LOCK, lock_content

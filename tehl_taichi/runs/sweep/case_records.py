@@ -1,4 +1,4 @@
-"""Records of the cases of a study, one JSON line each as they end: a line is whole or was never written."""
+"""Records of the cases of a study: one JSON line each, written at once when the case ends."""
 
 import io
 import json
@@ -15,13 +15,13 @@ FINAL = ("converged", "not converged", "refused")  # would end the same again; a
 
 
 def append(folder, record):
-    """Add one record, a dictionary with its "case" and "status" among others."""
+    """Append one record, a dictionary with "case", "status" and more."""
     line = (json.dumps(plain(record), allow_nan=False) + "\n").encode()
     files.append(folder / FILE, line)
 
 
 def read(folder):
-    """Generator of records in the order in which they came (a case that ran again comes again). Raises StoreError."""
+    """Generator of records in order of writing (a repeated case has several). Raises StoreError."""
     try:
         for line in io.BytesIO(files.content(folder / FILE, MOST)):
             if line.endswith(b"\n") and (record := _record(line)):
@@ -33,7 +33,7 @@ def read(folder):
 
 
 def mend(folder):
-    """Cut off a line whose writer was killed in its middle, so that the next one begins where a line begins."""
+    """Cut off an incomplete last line of a killed writer, so that the next record begins on a new line."""
     path = folder / FILE
     content = files.content(path, MOST) if path.exists() else b""
     if content and not content.endswith(b"\n"):

@@ -1,4 +1,4 @@
-"""Dask underneath: the workers of a scheduler that runs already."""
+"""Jobs on a running Dask cluster."""
 
 import contextlib
 import itertools
@@ -15,7 +15,7 @@ SETTINGS = {"distributed.comm.timeouts.connect": f"{PATIENCE}s"}
 
 
 def results(work, jobs, scheduler, say_line):
-    """As :func:`tehl_taichi.runs.sweep.pool.results`."""
+    """Run jobs: see :func:`tehl_taichi.runs.sweep.pool.results`."""
     distributed = _distributed()
     with _client(distributed, scheduler) as client:
         if not client.nthreads():
@@ -44,7 +44,7 @@ def results(work, jobs, scheduler, say_line):
 
 
 def check(scheduler):
-    """Raise what :func:`results` would raise before its first job."""
+    """Raise the errors that :func:`results` would raise before its first job."""
     distributed = _distributed()
     if isinstance(scheduler, str):
         _connected(distributed, scheduler).close()
@@ -64,7 +64,7 @@ def _answer(future):
 
 @contextlib.contextmanager
 def _client(distributed, scheduler):
-    """The client of that scheduler, or the one that is given."""
+    """Client of that scheduler, or the given client."""
     import dask
 
     if not isinstance(scheduler, str):

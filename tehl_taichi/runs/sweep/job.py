@@ -1,4 +1,4 @@
-"""A job of :mod:`tehl_taichi.runs.sweep.pool` where it is done, and what is left of one that was lost."""
+"""A job of :mod:`tehl_taichi.runs.sweep.pool` in its process, and the result of a lost job."""
 
 import threading
 from concurrent.futures import ThreadPoolExecutor
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class LostJob:
-    """Instead of an answer: the job raised, or its worker died twice over it. reason: which of them, a sentence."""
+    """Result of a job that raised, or whose worker died twice. reason: a sentence."""
 
     reason: str
 
@@ -22,7 +22,7 @@ def working():
 
 
 def in_one_thread(work, job):
-    """work(job) in the one thread of this process that Taichi belongs to, whichever thread asks."""
+    """Run work(job) in the thread of this process in which Taichi runs, whichever thread calls."""
     with _guard:
         if not _lane:
             _lane.append(ThreadPoolExecutor(1, thread_name_prefix="tehl"))

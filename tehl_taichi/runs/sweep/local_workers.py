@@ -1,6 +1,6 @@
-"""Workers of our own: processes on this machine that hear of jobs by pipes. No port is opened: no other program can send one.
+"""Workers on this machine: processes that receive jobs through pipes. No port is opened, so no other program can send a job.
 
-A job whose worker died is given to a new one, once; a worker that takes more than its share of the memory is ended.
+A job whose worker died is given once to a new worker; a worker that exceeds its share of the memory is ended.
 """
 
 import contextlib
@@ -23,7 +23,7 @@ DIED = "its worker died, also at the second attempt (killed, or out of memory)"
 
 
 def results(work, jobs, workers):
-    """As :func:`tehl_taichi.runs.sweep.pool.results`."""
+    """Run jobs: see :func:`tehl_taichi.runs.sweep.pool.results`."""
     crew = LocalWorkers(workers)
     try:
         yield from crew.results(work, iter(enumerate(jobs)))
@@ -39,7 +39,7 @@ class LocalWorkers:
         self.count, self.room, self.busy, self.idle = count, SHARE * memory_limit.available() / count, {}, []
 
     def results(self, work, waiting):
-        """Generator of (number of the job, its answer) as they end."""
+        """Generator of (number of the job, its answer) in order of completion."""
         self._hand_out(work, waiting)
         while self.busy:
             for pipe in wait(list(self.busy), PAUSE):
@@ -70,7 +70,7 @@ class LocalWorkers:
                 worker.process.kill()
 
     def leave(self):
-        """Let the workers end by themselves: Taichi then keeps what it compiled."""
+        """Let the workers end by themselves, so that Taichi stores its compiled kernels."""
         for worker in self.idle:
             worker.pipe.close()
         for worker in self.idle:
@@ -86,7 +86,7 @@ class LocalWorkers:
 
 
 class Worker:
-    """A process, the end of its pipe and the job that it has."""
+    """A process, its pipe and its current job."""
 
     job: tuple[int, Any]
     tries: int
@@ -99,13 +99,13 @@ class Worker:
         theirs.close()
 
     def give(self, work, number, job, tries):
-        """Send a job; one that is dead already answers with nothing."""
+        """Send a job; for a dead worker :meth:`answer` gives None."""
         self.job, self.tries = (number, job), tries
         with contextlib.suppress(OSError):
             self.pipe.send((work, job))
 
     def answer(self):
-        """Result of its job: the answer, a :class:`LostJob`, or None where the process died."""
+        """Result of its job: the answer, a :class:`LostJob`, or None if the process died."""
         try:
             return self.pipe.recv()
         except (EOFError, OSError):
@@ -113,14 +113,14 @@ class Worker:
             return None
 
     def memory(self):
-        """Bytes that the process has in memory, 0 where that cannot be known."""
+        """Bytes of memory that the process uses, 0 if unknown."""
         with contextlib.suppress(OSError, ValueError):
             return int(Path(f"/proc/{self.process.pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
         return 0
 
 
 def _serve(pipe):
-    """The process: job after job, until the sweep ends."""
+    """Main function of the process: job after job, until the sweep ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the sweep, which then ends its workers
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     threading.Thread(target=_end_with_the_sweep, daemon=True).start()
@@ -141,7 +141,7 @@ def _done(work, job):
 
 
 def _end_with_the_sweep():
-    """End with a sweep that was killed; its cases continue from their stores."""
+    """End together with a killed sweep; its cases resume from their stores."""
     if sweep := multiprocessing.parent_process():
         wait([sweep.sentinel])
         os._exit(1)

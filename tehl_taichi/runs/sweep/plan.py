@@ -1,4 +1,4 @@
-"""Plan of a sweep: a scene, the keys that change and their values; its cases, and which of them the scene refuses."""
+"""Plan of a sweep: a scene, the keys that change and their values; its cases, and those that the scene refuses."""
 
 import contextlib
 import hashlib
@@ -22,10 +22,10 @@ ONE = "case"  # the dimension of a study whose keys change together
 
 @dataclass(frozen=True)
 class Plan:
-    """Cases are numbered from 0 in the order of the axes, the last one fastest.
+    """Cases, numbered from 0 in the order of the axes, the last axis fastest. Raises SceneError.
 
-    scene: that of every case but for its changes; axes: tuple of :class:`tehl_taichi.runs.sweep.axis_syntax.Axis`; drawn: how
-    they were sampled ({"samples", "seed"}), if they were. Raises SceneError.
+    scene: of every case before its changes; axes: tuple of :class:`tehl_taichi.runs.sweep.axis_syntax.Axis`; drawn: how they
+    were sampled ({"samples", "seed"}), or None.
     """
 
     scene: Scene
@@ -50,7 +50,7 @@ class Plan:
 
     @property
     def gridded(self):
-        """Whether each key has a dimension of its own; else all cases lie along one, `case`."""
+        """Whether each key has its own dimension; otherwise all cases lie along one, `case`."""
         return not self.drawn and all(len(axis.keys) == 1 for axis in self.axes)
 
     @property
@@ -67,12 +67,12 @@ class Plan:
 
     @property
     def name(self):
-        """Scene and six digits that identify the plan."""
+        """Name of the scene with six digits that identify the plan."""
         return f"{self.scene.name}-sweep-{hashlib.sha256(self._text(note='').encode()).hexdigest()[:6]}"
 
     @property
     def text(self):
-        """All of it as JSON."""
+        """JSON text of the plan."""
         return self._text()
 
     def _text(self, **other):
@@ -81,7 +81,7 @@ class Plan:
         return json.dumps({"scene": {**self.scene.to_dict(), **other}, "axes": axes, "drawn": self.drawn}, sort_keys=True)
 
     def matches(self, text):
-        """Whether such a text is of this plan; another note makes no other plan, nor do keys that came after it was written."""
+        """Whether a text is of this plan; a different note and keys of newer versions do not matter."""
         try:
             return type(self).from_text(text) == self
         except (ValueError, KeyError, TypeError):
@@ -89,13 +89,13 @@ class Plan:
 
     @classmethod
     def from_text(cls, text):
-        """The plan of such a text. Raises SceneError."""
+        """Plan of such a text. Raises SceneError."""
         data = json.loads(text)
         axes = tuple(axis_syntax.Axis(tuple(axis["keys"]), _tuples(axis["rows"])) for axis in data["axes"])
         return cls(Scene.from_dict(data["scene"]), axes, data["drawn"])
 
     def positions(self, number):
-        """Step of each axis in a case."""
+        """Step number of each axis in a case."""
         out = []
         for axis in reversed(self.axes):
             number, position = divmod(number, len(axis.rows))
@@ -107,7 +107,7 @@ class Plan:
         return {key: value for axis, n in zip(self.axes, self.positions(number)) for key, value in axis.changes(n).items()}
 
     def case(self, number):
-        """Scene of a case, one object for those of a plan that is looked through. Raises SceneError."""
+        """Scene of a case; cached while a plan is searched. Raises SceneError."""
         if number not in self._cases:
             found = self.scene.replace(**self.changes(number))
             if self.count > LOOKED_AT:
@@ -123,8 +123,9 @@ class Plan:
         return ONE, [self.changes(n)[key] for n in range(self.count)]
 
     def refused(self):
-        """{case: reason} of those that the scene refuses. Raises SceneError where a value is refused whatever the other keys
-        are: that is a mistake, not a corner of the sweep that cannot be run."""
+        """{case: reason} of the cases that the scene refuses. Raises SceneError if a value is refused for all other keys: that
+        is a mistake.
+        """
         found = {}
         for number in range(self.count):
             try:
@@ -139,13 +140,13 @@ class Plan:
         return found
 
     def _check_effect(self, refused):
-        """Raises SceneError for a key that changes nothing in any case: all its rows would be equal."""
+        """Raise SceneError for a key without effect in any case: all its rows would be equal."""
         for key in self.keys:
             if len({repr(self.changes(number)[key]) for number in range(self.count)}) > 1 and (why := self._idle(key, refused)):
                 raise SceneError(f"{key} has no effect here: {why}; the cases would be equal")
 
     def _idle(self, key, refused):
-        """Why a key changes nothing, where it does so in every case that can run; else ""."""
+        """Reason why a key has no effect, if that holds in every valid case; else ""."""
         why = ""
         for number in (n for n in range(self.count) if n not in refused):
             scene = self.case(number)
@@ -155,7 +156,7 @@ class Plan:
         return why
 
     def doubts(self):
-        """Sentences about keys, set or swept, that have no effect in any case; of a large plan about those that are set."""
+        """Sentences about keys, set or swept, without effect in any case; for a large plan only about set keys."""
         if self.count > LOOKED_AT:
             return list(idle_keys.doubts(self.scene))
         every = []
@@ -165,7 +166,7 @@ class Plan:
         return [sentence for sentence in every[0] if all(sentence in other for other in every)] if every else []
 
     def equal(self):
-        """{case: earlier case} of cases that differ in keys without effect alone, of a plan that is not too large to look."""
+        """{case: earlier case} of cases that differ only in keys without effect; {} for a large plan."""
         seen: dict[str, int] = {}
         found = {}
         for number in range(self.count if self.count <= LOOKED_AT else 0):
@@ -176,8 +177,7 @@ class Plan:
         return found
 
     def without_temperatures(self):
-        """Numbers of the cases whose film has one temperature while other cases compute theirs; [] where all do alike, or of a
-        plan too large to look."""
+        """Numbers of the isothermal cases if other cases are thermal; [] if all are alike, or for a large plan."""
         found: dict[bool, list[int]] = {}
         for number in range(self.count if self.count <= LOOKED_AT else 0):
             with contextlib.suppress(SceneError):
@@ -193,10 +193,10 @@ class Plan:
 
 
 def plan(scene, over, samples=None, seed=None):
-    """Plan of `over`: {key: values}; a key that is a tuple of keys has rows of values, which change together.
+    """Plan of `over`: {key: values}; a tuple of keys has rows of values, which change together.
 
-    values: a list, an array, a text as --over has it; with `samples` (so many drawn by a Latin hypercube) "low:high",
-    "low:high:log" or a tuple (low, high), or a list to choose from. Raises SceneError.
+    values: a list, an array, a text as for --over. With `samples` (a Latin hypercube of this many cases): "low:high",
+    "low:high:log", a tuple (low, high), or a list to choose from. Raises SceneError.
 
     >>> from tehl_taichi.scene import scene
     >>> found = plan(scene("gear"), {"srr": [-0.1, 0.1], "feature.height": "0.5e-6:1.5e-6:3"})
@@ -226,7 +226,7 @@ def _axis(scene, keys, rows):
 
 
 def _numbers(scene, key, column):
-    """Values of a key, or its span, numbers in place of text with a unit. Raises SceneError."""
+    """Values of a key, or its span, with numbers in place of texts with a unit. Raises SceneError."""
     full = aliases.full_name(key)
     if isinstance(column, axis_syntax.Span):
         return column.converted(lambda ends: column_in_units(scene, full, ends))
@@ -242,7 +242,7 @@ def _choices(key, found):
 
 
 def unit(scene, key):
-    """Unit of a key, "1" where it has none."""
+    """Unit of a key, "1" without one."""
     section, _, name = aliases.full_name(key).partition(".")
     if (section, name) == ("contact", "load"):
         return "N/m" if scene.contact.kind == "line" else "N"
@@ -261,7 +261,7 @@ def _part(scene, section, name):
 
 
 def _present(scene, key):
-    """Value of the scene for a key, None if the scene uses another key for it."""
+    """Value of a key in the scene, None if the scene uses another key for it."""
     section, _, name = aliases.full_name(key).partition(".")
     try:
         return getattr(_part(scene, section, name), name.rpartition(".")[2])

@@ -1,7 +1,7 @@
-"""Jobs in parallel: a list of jobs goes in, what became of each comes out as soon as it is known.
+"""Parallel jobs: each result is returned as soon as it is known.
 
-One worker is this process. More of them are processes of our own (:mod:`tehl_taichi.runs.sweep.local_workers`), a scheduler
-somewhere else is Dask's (:mod:`tehl_taichi.runs.sweep.dask_cluster`).
+A single worker is this process. Several are local processes (:mod:`tehl_taichi.runs.sweep.local_workers`) or a Dask cluster
+(:mod:`tehl_taichi.runs.sweep.dask_cluster`).
 """
 
 from tehl_taichi.errors import SceneError
@@ -14,12 +14,12 @@ MOST = 1024  # processes, and threads of one
 
 
 def results(work, jobs, *, workers=1, scheduler=None, say_line=None):
-    """Generator of (number of the job, work(job) or LostJob), in the order in which they end.
+    """Generator of (number of the job, work(job) or LostJob), in order of completion.
 
-    work: a function that other processes can import; it starts the engine itself; jobs: an iterable, drawn from as workers
-    come free; workers: processes, 1 is this one, None those of the scheduler: its address, or a distributed.Client; say_line:
-    called with sentences. Raises RuntimeUnavailable where a scheduler is named and Dask is not installed, StoreError where
-    none answers.
+    work: a function that other processes can import; it starts the engine itself. jobs: an iterable, read as workers become
+    free. workers: number of processes; 1 is this process, None uses `scheduler` (its address, or a distributed.Client).
+    say_line: called with sentences. Raises RuntimeUnavailable if a scheduler is named and Dask is not installed, StoreError if
+    no scheduler answers.
     """
     if workers == 1:
         yield from ((number, work(job)) for number, job in enumerate(jobs))
@@ -35,8 +35,11 @@ def results(work, jobs, *, workers=1, scheduler=None, say_line=None):
 
 
 def sizes(workers=None, threads=None, scheduler=None, jobs=MOST):
-    """(processes, threads of each): one thread on every core, or what the given number leaves of the cores; (1, None) is this
-    process as it is started; (None, threads) a scheduler that runs already. No more processes than jobs. Raises SceneError."""
+    """(processes, threads of each). Raises SceneError.
+
+    Default: one thread on every core, or as many as fit the given number. (1, None): this process as it was started; (None,
+    threads): a running scheduler. Never more processes than jobs.
+    """
     from tehl_taichi.engine import cores
 
     if workers is not None and scheduler is not None:
@@ -54,7 +57,7 @@ def sizes(workers=None, threads=None, scheduler=None, jobs=MOST):
 
 
 def check(workers, threads, scheduler=None):
-    """Raise what :func:`results` would raise before its first job, and what this process would at each where it does them."""
+    """Raise the errors that :func:`results` would raise before its first job, including those of jobs in this process."""
     if scheduler is not None:
         from tehl_taichi.runs.sweep import dask_cluster
 

@@ -1,4 +1,4 @@
-"""Latin hypercube: N samples of several keys, each key's range in N equal parts with one sample in each."""
+"""Latin hypercube: N samples of several keys; the range of each key has N equal parts with one sample in each."""
 
 import numpy as np
 
@@ -7,10 +7,10 @@ from tehl_taichi.runs.sweep.axis_syntax import DIGITS, Axis, Span
 
 
 def latin_hypercube(columns, samples, seed=0, whole=()):
-    """Axis of `samples` rows.
+    """Axis with `samples` rows. Raises SceneError.
 
-    columns: {key: Span, or a list of values of which each comes about equally often}; whole: keys whose samples are rounded to
-    whole numbers. Raises SceneError. Source: McKay, Beckman, Conover, Technometrics 21 (1979) 239.
+    columns: {key: Span, or a list of values, each used about equally often}; whole: keys whose samples are rounded to whole
+    numbers. Source: McKay, Beckman, Conover, Technometrics 21 (1979) 239.
     """
     for name, value, least in (("samples", samples, 1), ("seed", seed, 0)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:

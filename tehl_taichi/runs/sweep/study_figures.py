@@ -1,4 +1,4 @@
-"""Figures of a study (matplotlib, the `plot` extra): a result over one swept key or two, and Fi against the film."""
+"""Figures of a study (matplotlib, the `plot` extra): a result over one or two swept keys, and Fi over the film."""
 
 import itertools
 from functools import partial
@@ -24,8 +24,11 @@ HIGH = 1.7  # rows of lines: height of a figure with one panel
 
 
 def write_all(study, folder, quantity=None, page=None):
-    """Write the figures of a study into `folder`, of one quantity (a column of its table) or of the usual ones, as the
-    :class:`FigureStyle` wants them; returns the paths. Raises StoreError where there is no such column, or nothing to draw."""
+    """Write the figures of a study into `folder`; returns the paths.
+
+    quantity: a column of its table (None: the usual ones); page: a :class:`FigureStyle`. Raises StoreError for an unknown
+    column, or if there is nothing to draw.
+    """
     chosen = [_known(study, quantity)] if quantity else usual(study)
     if not chosen:
         raise StoreError(f"{study.path} has no result to draw yet")
@@ -34,7 +37,7 @@ def write_all(study, folder, quantity=None, page=None):
 
 
 def _figures(study, chosen):
-    """Generator of (name, function that draws it, quantity that it draws)."""
+    """Generator of (name, function that draws it, its quantity)."""
     for name in chosen:
         if study.plan.gridded and len(study.plan.dims) <= 2:
             yield f"{name}_lines", lines, name
@@ -59,19 +62,20 @@ def _known(study, quantity):
 
 
 def curve_keys(study):
-    """The keys of a study with one or two: first that of the axis of curves, which has more values than the other (numbers
-    before words; the first of equal ones), then that of the lines."""
+    """Keys of a study with one or two keys: first the key of the axis (more values; numbers before words), then the key of the
+    lines.
+    """
     return sorted(study.plan.keys, key=lambda key: (not numeric(study, key), -len(study.plan.coordinate(key)[1])))
 
 
 def curve_rows(study, values):
-    """Values of all cases as one row for each line, along the key of the axis."""
+    """Values of all cases with one row per line, along the key of the axis."""
     found = values.reshape(study.plan.shape) if len(study.plan.keys) > 1 else values[:, None]
     return found.T if curve_keys(study)[0] == study.plan.keys[0] else found
 
 
 def lines(page, study, name):
-    """The quantity with its error over one key, a line for each value of the other."""
+    """Figure of the quantity with its error over one key, a line for each value of the other key."""
     values, errors, label = with_errors(study, name)
     values, errors = curve_rows(study, values), curve_rows(study, errors)
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
@@ -91,7 +95,7 @@ def lines(page, study, name):
 
 
 def heat_map(page, study, name):
-    """The quantity over two keys, a cell a case; cases without a result are hatched."""
+    """Figure of the quantity over two keys, a cell per case; cases without a result are hatched."""
     values, _, label = with_errors(study, name)
     values = values.reshape(study.plan.shape).T
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
@@ -111,7 +115,7 @@ def heat_map(page, study, name):
 
 
 def _write_values(ax, values):
-    """Write its value into each cell, light on dark."""
+    """Write the value into each cell, in a contrasting colour."""
     middle = 0.5 * (np.nanmin(values) + np.nanmax(values))
     for (row, column), value in np.ndenumerate(values):
         if np.isfinite(value):
@@ -120,7 +124,7 @@ def _write_values(ax, values):
 
 
 def points(page, study, name):
-    """The quantity of all cases with its error against each key."""
+    """Figure of the quantity of all cases with its error over each key."""
     values, errors, label = with_errors(study, name)
     keys = study.plan.keys
     most = 1 if page.narrow else 3
@@ -143,7 +147,7 @@ def points(page, study, name):
 
 
 def index_over_film(page, study):
-    """Fi of every case against the thinnest film of its passage, both with their errors, coloured by the first key."""
+    """Figure of Fi of every case over the minimum film of its passage, both with errors, coloured by the first key."""
     film, film_error, film_label = with_errors(study, FILM)
     Fi, Fi_error, _ = with_errors(study, INDEX)
     key = study.plan.keys[0]
@@ -164,7 +168,7 @@ def index_over_film(page, study):
 
 
 def _hollow(ax, x, y, errors):
-    """Points whose error is not known: not to be taken for exact ones."""
+    """Draw points with unknown error as hollow symbols."""
     unknown = ~np.isfinite(errors)
     ax.plot(x[unknown], y[unknown], ".", color="white", markersize=3, zorder=4)
 
@@ -194,7 +198,7 @@ def numeric(study, key):
 
 
 def along(study, key, per_case=False):
-    """(numbers along a key, its label with unit, the numbers in words); words stand at 0, 1, 2 ..."""
+    """(numbers along a key, its label with unit, texts of the numbers); words are at 0, 1, 2 ..."""
     values = [study.plan.changes(n)[key] for n in range(len(study))] if per_case else study.plan.coordinate(key)[1]
     if not numeric(study, key):
         known = list(dict.fromkeys(map(word, study.plan.coordinate(key)[1])))
@@ -207,12 +211,12 @@ def along(study, key, per_case=False):
 
 
 def with_errors(study, name):
-    """(values of a column, their error bars, both in a unit that people read, label); a bar is nan where it is not known."""
+    """(values of a column, their error bars, label), in the printed unit; unknown bars are nan."""
     values, errors = study.values[name], study.values.get(error_of(name), np.full(len(study), np.nan))
     factor, label = of_column(name, largest(values))
     return values * factor, errors * factor, label
 
 
 def largest(values):
-    """Size of the largest number, 0 without any."""
+    """Largest absolute number, 0 without any."""
     return float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0

@@ -1,4 +1,4 @@
-"""Study files (TOML): a scene, what is changed in all its cases, and what is swept."""
+"""Study files (TOML): a scene, changes common to all cases, and swept keys."""
 
 import tomllib
 from pathlib import Path
@@ -18,7 +18,7 @@ KNOWN = ("scene", "set", "over", "together", "samples", "seed")
 
 
 def is_study_file(path):
-    """Whether it is TOML that sweeps: a scene file has no table [over] or [[together]]."""
+    """Whether a file is a study: scene files have no table [over] or [[together]]."""
     path = Path(path)
     if ending(path) != ".toml" or not path.is_file():
         return False
@@ -29,10 +29,10 @@ def is_study_file(path):
 
 
 def load(path):
-    """Plan of a study file. Raises SceneError (also where the scene is refused).
+    """Plan of a study file. Raises SceneError (also if the scene is refused).
 
-    [over] has a line key = values for each key, [[together]] tables of keys that change together, [set] what all cases have;
-    keys with dots may be quoted or not. scene: a built-in, or a scene file beside this one.
+    [over] has a line key = values for each key, [[together]] are tables of keys that change together, [set] holds changes of
+    all cases; dotted keys may be quoted or not. scene: a built-in one, or a scene file beside this one.
     """
     path = Path(path)
     data = toml_file.read(path, "study")
@@ -51,7 +51,7 @@ def load(path):
 
 
 def _flat(table, above=""):
-    """{dotted key: value} of nested tables: TOML reads feature.height = 1 as one."""
+    """{dotted key: value} of nested tables (TOML reads feature.height = 1 as a nested table)."""
     out: dict[str, Any] = {}
     for key, value in table.items():
         out |= _flat(value, f"{above}{key}.") if isinstance(value, dict) else {above + key: value}

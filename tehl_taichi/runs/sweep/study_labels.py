@@ -1,4 +1,4 @@
-"""Names of what a study varies and of what it gives, with the units that people read."""
+"""Labels of swept keys and result columns of a study, with printed units."""
 
 from tehl_taichi.march import quantities
 from tehl_taichi.runs.sweep.plan import unit
@@ -17,7 +17,7 @@ READ = {"degC": "°C", "deg C": "°C", "deg": "°", "degree": "°", "1": ""}
 
 
 def key_name(key):
-    """Name of a swept key: "feature height" of feature.height, the key itself where it has no name."""
+    """Name of a swept key: "feature height" for feature.height; the key itself if it has no name."""
     full = full_name(key)
     section, _, rest = full.partition(".")
     number, _, name = rest.partition(".")
@@ -27,36 +27,36 @@ def key_name(key):
 
 
 def column_name(name):
-    """Name of a column of the table: "passage h_min" of transient_h_min_m, the words of the column where it has no name."""
+    """Name of a column: "passage h_min" for transient_h_min_m; the words of the column if it has no name."""
     entry = next((one for one in quantities.ENTRIES if f"{one.part}_{one.key}".replace(".", "_") == name), None)
     return entry.words if entry and (entry.label or entry.says or entry.series) else \
         name.removesuffix(f"_{unit_of(name)}").replace("_", " ")
 
 
 def with_unit(text, unit_):
-    """'load (N/mm)' of a text and a unit; text alone without one."""
+    """Text with its unit, such as 'load (N/mm)'; the text alone without a unit."""
     shown = READ.get(unit_, unit_)
     return f"{text} ({shown})" if shown else text
 
 
 def parted(label):
-    """(name, unit) of a label: 'load', 'N/mm' of 'load (N/mm)'; unit "" without one."""
+    """(name, unit) of a label, such as 'load', 'N/mm' of 'load (N/mm)'; unit "" without one."""
     name, bracket, shown = label.removesuffix(")").rpartition(" (")
     return (name, shown) if bracket and label.endswith(")") else (label, "")
 
 
 def valued(label, word):
-    """'load 3 N/mm' of the label 'load (N/mm)' and a value in words."""
+    """Text such as 'load 3 N/mm' from the label 'load (N/mm)' and the text of a value."""
     return " ".join(filter(None, (parted(label)[0], word, parted(label)[1])))
 
 
 def of_key(scene, key, size):
-    """(factor, label) of a key whose values in SI are of about this size."""
+    """(factor, label) of a key whose SI values are about this size."""
     factor, shown = fitting(unit(scene, key), size)
     return factor, with_unit(key_name(key), shown)
 
 
 def of_column(name, size):
-    """(factor, label) of a column of the table whose values in SI are of about this size."""
+    """(factor, label) of a column of the table whose SI values are about this size."""
     factor, shown = fitting(unit_of(name), size)
     return factor, with_unit(column_name(name), shown)

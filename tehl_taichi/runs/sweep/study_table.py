@@ -1,9 +1,9 @@
-"""A study on disk: a folder that is a zarr group (xarray opens it, the swept keys are its dimensions), a CSV and the cases.
+"""Study on disk: a folder that is a zarr group (xarray opens it with the swept keys as dimensions), a CSV and the cases.
 
-    STUDY/zarr.json, STUDY/srr/ ...   coordinates, status, and every number of the summaries over them
-    STUDY/table.csv                   the same, a line a case
-    STUDY/cases.jsonl                 every case that ended, with its summary: what the other two are made of
-    STUDY/cases/0001.zarr             the store of a case
+STUDY/zarr.json, STUDY/srr/ ...   coordinates, status, and every number of the summaries over them
+STUDY/table.csv                   the same numbers, one line per case
+STUDY/cases.jsonl                 every completed case with its summary, from which the other two are made
+STUDY/cases/0001.zarr             the store of a case
 """
 
 import contextlib
@@ -71,7 +71,7 @@ class Study(LockedFolder):
 
     @classmethod
     def open(cls, path):
-        """An existing study, to read. Raises StoreError."""
+        """Open an existing study for reading. Raises StoreError."""
         attrs = attributes(path)
         if attrs is None:
             raise StoreError(f"{path} is not a study of tehl sweep")
@@ -85,8 +85,9 @@ class Study(LockedFolder):
 
     @classmethod
     def write(cls, path, plan):
-        """The study of `plan` at `path`, made where there is none. Raises StoreError where something else is there, Busy where
-        another sweep writes it."""
+        """Open the study of `plan` at `path` for writing, or create it. Raises StoreError if other results are there, Busy if
+        another sweep is writing.
+        """
         path = Path(path)
         attrs = attributes(path)
         check_outside(path)
@@ -114,7 +115,7 @@ class Study(LockedFolder):
 
     @contextlib.contextmanager
     def _disk_errors(self):
-        """Context manager: errors of the disk (full, read-only) become a StoreError."""
+        """Context manager: disk errors (full, read-only) become a StoreError."""
         try:
             yield
         except OSError as error:
@@ -123,7 +124,7 @@ class Study(LockedFolder):
                 from None
 
     def close(self):
-        """Write what is not written yet, and let others write."""
+        """Write all pending data and release the lock."""
         try:
             if self.lock:
                 self.flush()
@@ -144,7 +145,7 @@ class Study(LockedFolder):
 
     @property
     def open_cases(self):
-        """Numbers of the cases that have no final result yet."""
+        """Numbers of the cases without a final result."""
         final = [records.STATUS[word] for word in records.FINAL]
         return np.flatnonzero(~np.isin(self.status, final)).tolist()
 
@@ -154,12 +155,13 @@ class Study(LockedFolder):
         return self.path / TABLE
 
     def store_of(self, number):
-        """Path of the store of a case, whether it exists or not."""
+        """Path of the store of a case (which may not exist)."""
         return self.path / CASES / f"{number:04d}.zarr"
 
     def results(self):
-        """List of the last record of every case that ended, in the order of their numbers: "case", "changes", "status",
-        "converged", "reason", "store", "seconds", "summary"."""
+        """Last record of every completed case, by case number: "case", "changes", "status", "converged", "reason", "store",
+        "seconds", "summary".
+        """
         last = {record["case"]: record for record in records.read(self.path) if record["case"] < len(self)}
         return [{**last[n], "converged": last[n]["status"] == "converged", "store": self._full(last[n].get("store"))}
                 for n in sorted(last)]
@@ -168,14 +170,14 @@ class Study(LockedFolder):
         return str(self.path / store) if store else None
 
     def rows(self):
-        """Generator of one dictionary a case: its number, keys, status and numbers."""
+        """Generator of one dictionary per case: its number, keys, status and numbers."""
         words = {number: word for word, number in records.STATUS.items()}
         for n in range(len(self)):
             yield {"case": n, **self.plan.changes(n), "status": words[int(self.status[n])],
                    **{name: float(column[n]) for name, column in self.values.items()}}
 
     def add(self, record):
-        """Keep the record of a case that ended; the table follows now and then. Raises StoreError."""
+        """Store the record of a completed case; the table is updated from time to time. Raises StoreError."""
         with self._disk_errors():
             records.append(self.path, record)
         self._take(record)
@@ -191,7 +193,7 @@ class Study(LockedFolder):
             self.values.setdefault(name, np.full(len(self), np.nan))[n] = value
 
     def flush(self):
-        """Write arrays and CSV as they are now. Raises StoreError."""
+        """Write arrays and CSV in their present state. Raises StoreError."""
         with self._disk_errors():
             self._flush()
 
@@ -233,7 +235,7 @@ class Study(LockedFolder):
         return array
 
     def _publish(self):
-        """The group's metadata with those of its arrays, replaced as a whole."""
+        """Replace the group's metadata, with those of its arrays, as a whole."""
         arrays = {name: json_of(self.path / name / ROOT) for name in self.written}
         coordinates = [key for key in (*self.plan.keys, ONE) if key in arrays and key not in self.plan.dims]
         attrs = {PLAN: self.plan.text, "version": __version__, "commit": commit(), "coordinates": " ".join(coordinates)}
@@ -256,7 +258,7 @@ class Study(LockedFolder):
                 "table": str(self.table), "results": self.results()}
 
     def to_xarray(self):
-        """The table as an xarray.Dataset over the swept keys. Raises StoreError where xarray is not installed."""
+        """Table as an xarray.Dataset over the swept keys. Raises StoreError without xarray."""
         try:
             import xarray
         except ImportError:
@@ -264,10 +266,10 @@ class Study(LockedFolder):
         return xarray.open_zarr(self.path).load()
 
     def plot(self, folder=None, quantity=None, dpi=160, format="png", width=17.0, force=False):
-        """Write its figures into `folder` (default: beside the study): of one column of the table or of the usual ones.
+        """Write its figures into `folder` (default: beside the study), of one column of the table or of the usual ones.
 
-        dpi, format, width, force: as :meth:`Run.plot`. Returns their paths. Raises SceneError, or StoreError without
-        matplotlib, for an unknown column, or where it cannot write.
+        dpi, format, width, force: as :meth:`Run.plot`. Returns their paths. Raises SceneError; StoreError without matplotlib,
+        for an unknown column, or if writing fails.
         """
         from tehl_taichi.runs.sweep import study_figures
         from tehl_taichi.view.figures.figure_style import FigureStyle, default_folder
@@ -277,7 +279,7 @@ class Study(LockedFolder):
 
 
 def _scene_text(plan):
-    """The scene in the text of a plan, as JSON; "" where there is none."""
+    """JSON text of the scene in the text of a plan; "" without one."""
     try:
         return json.dumps(json.loads(plan)["scene"])
     except (TypeError, ValueError, KeyError):
@@ -285,7 +287,7 @@ def _scene_text(plan):
 
 
 def is_study(path):
-    """Whether a study lies at `path`."""
+    """Whether there is a study at `path`."""
     return attributes(path) is not None
 
 

@@ -1,4 +1,4 @@
-"""A summary as one row of a table: its numbers by one name each, with their units."""
+"""Summary as one row of a table: its numbers with unique names, and their units."""
 
 import math
 import re
@@ -15,7 +15,7 @@ PART = re.compile(r"(fatigue(_by_surface_[ab])?(_resolved|_averaged)?(_below|_co
 
 
 def numbers(summary, above=""):
-    """{name: number} of a nested summary: "fatigue_Fi_max" is summary["fatigue"]["Fi_max"]; lists and words are left out."""
+    """{name: number} of a nested summary: "fatigue_Fi_max" is summary["fatigue"]["Fi_max"]; lists and texts are left out."""
     out: dict[str, float] = {}
     for key, value in summary.items():
         if key in LEFT_OUT or not NAME.fullmatch(key):
@@ -28,7 +28,7 @@ def numbers(summary, above=""):
 
 
 def error_of(name):
-    """Name of the error bar of a number: "fatigue_error_Fi_max" is that of "fatigue_Fi_max"."""
+    """Name of the error bar of a number: "fatigue_error_Fi_max" for "fatigue_Fi_max"."""
     if "_" not in name:
         return f"error_{name}"
     found = PART.match(f"{name}_")
@@ -38,5 +38,5 @@ def error_of(name):
 
 
 def unit_of(name):
-    """Unit of a number by the end of its name, as summaries have it: h_min_m is in m, load_error in nothing."""
+    """Unit of a number by the end of its name: h_min_m is in m, load_error has none ("1")."""
     return summary_units.unit_of(name) or "1"

@@ -1,4 +1,4 @@
-"""Many runs of one scene with changes: case by case into a study, in parallel, resumed where it stopped."""
+"""Sweep: many runs of one scene with changes, written case by case into a study, in parallel, resumable."""
 
 from collections.abc import Callable, Mapping
 from os import PathLike
@@ -18,7 +18,7 @@ KEEP = ("stores", "summary")
 def sweep(scene: Scene | str | PathLike, over: Mapping, path: str | PathLike | None = None, *, samples: int | None = None,
           seed: int | None = None, workers: int | None = None, threads_per_worker: int | None = None, scheduler: Any = None,
           keep: str = "stores", progress: Callable | None = None) -> "Study":
-    """As :func:`tehl_taichi.sweep`."""
+    """Run a sweep: see :func:`tehl_taichi.sweep`."""
     from tehl_taichi.runs.sweep.plan import plan
     from tehl_taichi.store.load_scene import find
 
@@ -28,8 +28,9 @@ def sweep(scene: Scene | str | PathLike, over: Mapping, path: str | PathLike | N
 
 def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=None, keep="stores", progress=None, say_line=None,
         work=None):
-    """The cases of `plan` that its study at `path` has no result of; as :func:`sweep`. work: what runs a
-    :class:`tehl_taichi.runs.sweep.case.CaseJob` (default: :func:`tehl_taichi.runs.sweep.case.work`)."""
+    """Run the cases of `plan` without a result in its study at `path`; see :func:`sweep`. work: function that runs a
+    :class:`tehl_taichi.runs.sweep.case.CaseJob` (default: :func:`tehl_taichi.runs.sweep.case.work`).
+    """
     from tehl_taichi.runs.sweep import case, pool
     from tehl_taichi.runs.sweep.study_table import Study
     from tehl_taichi.store.store_draft import check_room
@@ -53,8 +54,9 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
 
 
 def checked(workers=None, threads_per_worker=None, scheduler=None, keep="stores", connect=True):
-    """(processes, threads of each) of a sweep, as :func:`tehl_taichi.runs.sweep.pool.sizes` gives them; connect: a scheduler is
-    asked whether it is there. Raises SceneError and RuntimeUnavailable where no sweep can have them."""
+    """Check the settings of a sweep; returns (processes, threads of each), see :func:`tehl_taichi.runs.sweep.pool.sizes`.
+    Raises SceneError and RuntimeUnavailable. connect: also check that the scheduler answers.
+    """
     from tehl_taichi.runs.sweep import pool
     from tehl_taichi.values.checks import choice
 
@@ -66,12 +68,12 @@ def checked(workers=None, threads_per_worker=None, scheduler=None, keep="stores"
 
 
 def _nearest_folder(path):
-    """The folder at `path`, or the first above it that there is."""
+    """Folder at `path`, or the nearest existing one above it."""
     return next(folder for folder in (path.absolute(), *path.absolute().parents) if folder.is_dir())
 
 
 def default_path(plan):
-    """One path for one sweep, so that a repeated command resumes it."""
+    """Default path, equal for equal sweeps, so that a repeated command resumes its sweep."""
     return Path("runs") / f"{plan.name}.zarr"
 
 

@@ -1,7 +1,7 @@
-"""The first worker of a machine compiles the kernels, the others wait for it and load them.
+"""Shared kernel cache: the first worker of a machine compiles the kernels, the others wait and load them.
 
-Taichi keeps compiled kernels when its process ends properly, which workers rarely do: so a short passage runs in a process of
-its own, once for a kind of scene, version and machine (more exactly: folder of kernels).
+Taichi stores compiled kernels when its process ends normally, which workers rarely do. So a short passage runs in a separate
+process, once per kind of scene, version and machine (more exactly: kernel folder).
 """
 
 import contextlib
@@ -20,7 +20,7 @@ STEPS = 3  # the fewest with a fatigue search
 
 
 def once(scene):
-    """See that the kernels of such a scene are in the cache; waits while another process sees to it."""
+    """Make sure that the kernels of such a scene are in the cache; waits if another process is compiling them."""
     from tehl_taichi.engine.runtime import preferred_cache
 
     stamp = preferred_cache() / f"warm-{_kind(scene)}"
@@ -36,7 +36,7 @@ def once(scene):
 
 
 def _kind(scene):
-    """Short word for the kernels of a scene: equal words, equal kernels."""
+    """Short hash of the kernels of a scene: equal hashes, equal kernels."""
     kind = [commit(), scene.isothermal, scene.one_dimensional, scene.symmetric, scene.transient, scene.has_fatigue,
             scene.shear_law.law, scene.oil.viscosity, scene.numerics.precision, scene.contact.kind]
     return hashlib.sha256(json.dumps(kind).encode()).hexdigest()[:10]
@@ -50,14 +50,14 @@ def _wait_for(lock):
 
 
 def _compile(scene):
-    """Run a few steps of the scene in a process that ends properly, whatever comes out."""
+    """Run a few steps of the scene in a process that ends normally; its result is ignored."""
     subprocess.run([sys.executable, "-c", "from tehl_taichi.runs.sweep.warm_cache import serve; serve()"],
                    input=pickle.dumps(scene),
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, "OMP_NUM_THREADS": "1"})
 
 
 def serve():
-    """The process: a scene comes by stdin."""
+    """Main function of that process; reads a scene from stdin."""
     from tehl_taichi.engine import runtime
     from tehl_taichi.fatigue import assessment
     from tehl_taichi.march.passage import march

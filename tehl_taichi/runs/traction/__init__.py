@@ -1,7 +1,7 @@
 """Traction curves: friction, film and temperature of a steady contact over slip, speed and inlet temperature.
 
-`traction_run` plans the cases as a sweep and runs them, `traction_rows` are the results with their error bars,
-`traction_figure` draws them.
+`traction_run` plans the cases as a sweep and runs them, `traction_rows` holds the results with error bars, `traction_figure`
+draws them.
 """
 
 from tehl_taichi.runs.traction.traction_rows import Traction

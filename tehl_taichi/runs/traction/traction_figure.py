@@ -1,4 +1,6 @@
-"""Friction, central film and temperature over slip (or speed), a curve per temperature, with error bars."""
+"""Figure of traction curves: friction, central film and temperature over slip (or speed), a curve per temperature, with error
+bars.
+"""
 
 import numpy as np
 
@@ -47,19 +49,19 @@ def _along(ax, found):
 
 
 def _evenly_in_logarithm(x):
-    """Whether three or more values have equal ratios, as those of low:high:N:log."""
+    """Whether three or more values have equal ratios, as from low:high:N:log."""
     steps = np.diff(np.log(np.unique(x)))
     return len(steps) > 1 and np.ptp(steps) < 1e-6 * steps.max()
 
 
 def scale(found):
-    """(factor, unit) of the values along the curves of a Traction."""
+    """(factor, unit) of the axis of a Traction."""
     name, _, unit = axis(found.study.plan, found.across)
     return fitting(unit, max(abs(row[name]) for row in found.rows))
 
 
 def series(found, rows, key):
-    """(x, values, error bars) of the rows of a curve that have this number; nan: error not known."""
+    """(x, values, error bars) of the rows of a curve with this number; unknown errors are nan."""
     having = [row for row in rows if row[key] is not None]
     x = [row[axis(found.study.plan, found.across)[0]] * scale(found)[0] for row in having]
     bars = [np.nan if row["error"][key] is None else row["error"][key] for row in having]

@@ -1,4 +1,4 @@
-"""Results of traction curves: a row per case, and the curves that the rows make."""
+"""Results of traction curves: one row per case, grouped to curves."""
 
 from pathlib import Path
 
@@ -21,12 +21,12 @@ def axis(plan, key):
 
 
 class Traction:
-    """Friction, film and temperature over slip: :func:`tehl_taichi.traction` gives one.
+    """Friction, film and temperature over slip; :func:`tehl_taichi.traction` returns one.
 
     Attributes
     ----------
     study : Study
-        The sweep behind it, with the summary of every case.
+          The sweep behind it, with the summary of every case.
 
     Examples
     --------
@@ -42,9 +42,10 @@ class Traction:
 
     @property
     def rows(self) -> list:
-        """One dictionary per case: srr, temperature_C, u_m_m_s (and load_N, load_N_m or p_Hertz_Pa where that is swept),
-        friction_coefficient, h_c_m, h_min_m, film_max_C, their error bars in "error", converged, reason; numbers are None where
-        a case has no result."""
+        """One dictionary per case: srr, temperature_C, u_m_m_s (and load_N, load_N_m or p_Hertz_Pa if swept),
+        friction_coefficient, h_c_m, h_min_m, film_max_C, their error bars in "error", converged, reason; numbers are None for a
+        case without a result.
+        """
         found = {record["case"]: record for record in self.study.results()}
         return [self._row(number, found.get(number)) for number in range(len(self.study))]
 
@@ -65,14 +66,14 @@ class Traction:
 
     @property
     def across(self) -> str:
-        """The key along the curves: srr, or what alone has several values."""
+        """Key along the curves: srr, or the only key with several values."""
         several = [key for key in ALONG if key in self.study.plan.keys
                    and len(self.study.plan.coordinate(key)[1]) > 1]
         return several[0] if several else SRR
 
     @property
     def curves(self) -> dict:
-        """{label: its rows} of the curves over :attr:`across`."""
+        """{label: rows} of the curves over :attr:`across`."""
         others = [key for key in self.study.plan.keys if key != self.across]
         out: dict[str, list] = {}
         for row in self.rows:
@@ -81,14 +82,14 @@ class Traction:
         return out
 
     def _words(self, key, row):
-        """The value of a key in a row as a legend shows it."""
+        """Legend text of a key's value in a row."""
         name, _, unit = axis(self.study.plan, key)
         factor, shown = fitting(unit, abs(row[name]))
         return f"SRR {row['srr']:g}" if key == SRR else f"{row[name] * factor:g} {shown}"
 
     @property
     def warnings(self) -> list:
-        """Warnings of the cases: of every kind the first, with the number of its cases."""
+        """Warnings of the cases: the first of every kind, with the number of its cases."""
         kinds: dict[str, list[str]] = {}
         for record in self.study.results():
             summary = record["summary"] or {}
@@ -106,8 +107,8 @@ class Traction:
     def plot(self, folder=None, dpi: int = 160, format: str = "png", width: float = 17.0, force: bool = False) -> Path:
         """Write the figure traction.png into `folder` (default: beside the study); returns its path.
 
-        dpi, format, width, force: as :meth:`Run.plot`. Raises SceneError, or StoreError without matplotlib, or where something
-        is in the way.
+        dpi, format, width, force: as :meth:`Run.plot`. Raises SceneError; StoreError without matplotlib, or if a file is in the
+        way.
         """
         from tehl_taichi.runs.traction import traction_figure
         from tehl_taichi.view.figures.figure_style import FigureStyle, default_folder

@@ -1,4 +1,4 @@
-"""A traction curve as a sweep of a steady, smooth contact: slip fastest, then speed, then inlet temperature."""
+"""Traction curves as a sweep of a steady, smooth contact: slip fastest, then speed, then inlet temperature."""
 
 import dataclasses
 from collections.abc import Callable
@@ -23,7 +23,7 @@ def traction(scene: Scene | str | PathLike, srr: Any = SRRS, temperature: Any = 
              load: Any = None, hertz_pressure: Any = None, changes: dict | None = None, path: str | PathLike | None = None,
              workers: int | None = None, threads_per_worker: int | None = None, progress: Callable | None = None,
              work: Any = None) -> Traction:
-    """As :func:`tehl_taichi.traction`; work: as of :func:`tehl_taichi.runs.sweep.sweeping.run`."""
+    """Compute traction curves: see :func:`tehl_taichi.traction`; work: as for :func:`tehl_taichi.runs.sweep.sweeping.run`."""
     found = traction_plan(find(scene), srr, temperature, speed, changes or {}, load, hertz_pressure)
     place = path if path is not None else default_path(found)
     return Traction(sweeping.run(found, place, workers=workers, threads_per_worker=threads_per_worker, keep="summary",
@@ -31,8 +31,10 @@ def traction(scene: Scene | str | PathLike, srr: Any = SRRS, temperature: Any = 
 
 
 def traction_plan(scene, srr=SRRS, temperature=None, speed=None, changes=None, load=None, hertz_pressure=None):
-    """The :class:`tehl_taichi.runs.sweep.plan.Plan` of the curves. Temperatures are computed in all cases unless switched off,
-    also in pure rolling: its film is in the same curve. Raises SceneError."""
+    """The :class:`tehl_taichi.runs.sweep.plan.Plan` of the curves. Raises SceneError.
+
+    Temperatures are computed in all cases unless switched off, also in pure rolling, so that one curve compares like with like.
+    """
     changes = {full_name(key): value for key, value in (changes or {}).items()}
     given = {TEMPERATURE: temperature, LOAD: load, PRESSURE: hertz_pressure, SPEED: speed, SRR: srr}
     swept = {key: axis_syntax.column(values) for key, values in given.items() if values is not None}
@@ -47,10 +49,10 @@ def traction_plan(scene, srr=SRRS, temperature=None, speed=None, changes=None, l
 
 
 def _is_one(values):
-    """Whether it is one value, which is that of all curves."""
+    """Whether it is a list of one value, which then holds for all curves."""
     return isinstance(values, list) and len(values) == 1
 
 
 def default_path(found):
-    """One path for one set of curves, so that a repeated command resumes them."""
+    """Default path, equal for equal curves, so that a repeated command resumes them."""
     return Path("runs") / f"{found.name.replace('-sweep-', '-traction-')}.zarr"
