@@ -1,9 +1,9 @@
 """A run in memory: steady start, time steps of the passage, snapshots, and the accuracy of their numbers.
 
-`passage` marches, `coupling` alternates pressure and temperature; `start`, `steady`, `isothermal_start`, `alternating_start`
-and `pseudo_transient` find the first state; `extrapolation` starts the next step, `failure` explains a failed one.
-`outputs` lists fields and numbers of a step; `accuracy` estimates errors.
-May import: engine, values, laws, scene, pressure, heat, fatigue. No files.
+`passage` marches, `coupling` iterates pressure and temperature; `start`, `steady`, `isothermal_start`, `alternating_start` and
+`pseudo_transient` find the first state; `extrapolation` predicts the next step, `failure` explains a failed one. `outputs`
+lists fields and numbers of a step; `accuracy` estimates errors. May import: engine, values, laws, scene, pressure, heat,
+fatigue. No files.
 """
 
 from collections.abc import Iterator
@@ -17,7 +17,7 @@ __all__ = ["march"]
 
 
 def march(scene: "Scene | str", state: dict | None = None, precision: str | None = None) -> "Iterator[Snapshot]":
-    """As :func:`tehl_taichi.march`."""
+    """March through a scene: see :func:`tehl_taichi.march`."""
     from tehl_taichi.errors import SceneError
     from tehl_taichi.march.passage import march as run
     from tehl_taichi.scene.builtin import given
@@ -30,7 +30,7 @@ def march(scene: "Scene | str", state: dict | None = None, precision: str | None
 
 
 def __getattr__(name):
-    """Its name before version 0.9."""
+    """Attribute under its name before version 0.9."""
     if name != "simulate":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     import warnings

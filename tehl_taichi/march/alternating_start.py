@@ -1,4 +1,4 @@
-"""The steady state of a film with temperatures: pressure and temperature alternately until neither moves."""
+"""Steady state of a thermal film: pressure and temperature are solved alternately until neither changes."""
 
 import math
 
@@ -20,7 +20,7 @@ LONGEST_RUN = 8  # blocks that are averaged
 
 
 def time_step(scene, scales, dx):
-    """Time step in s on cells of dx (Hertz units): that of the passage, or a cell of the faster surface."""
+    """Time step (s) on cells of dx (Hertz units): that of the passage, or one cell of the faster surface."""
     o = scene.operation
     if scene.transient:
         return step_cells(scene) * dx * scales.a / scene.reference.speed
@@ -28,14 +28,14 @@ def time_step(scene, scales, dx):
 
 
 def settle(levels, heat, solve, T=None):
-    """Steady pressure and temperature alternately: a block of time steps with the pressure at rest, then the pressure again by
-    solve() -> Report. T: temperatures to begin with, from a coarser grid.
+    """Find steady pressure and temperature alternately: a block of time steps at constant pressure, then the pressure by
+    solve() -> Report.
 
-    Settled when the mean temperatures under load of two blocks, or of two runs of 2 to 8 blocks, differ by less than SETTLED
-    (material strips lie between nodes now and on them then: single moments differ by 0.2 K on 64 columns, blocks by up to
-    0.6 K where the surfaces slip fast, back and forth about the same mean). A state with columns that did not converge, or
-    temperatures held in their range, is none. Returns the pressure's Report, with converged = False if that is not reached, and
-    whether it took more than USUAL blocks.
+    T: initial temperatures, from a coarser grid. The result is settled if the mean temperatures under load of two blocks, or of
+    two series of 2 to 8 blocks, differ by less than SETTLED. (Material strips lie between nodes or on them: single moments
+    differ by 0.2 K on 64 columns; blocks by up to 0.6 K if the surfaces slip fast, alternating about one mean.) A state with
+    unconverged columns or limited temperatures is not settled. Returns the pressure's Report, with converged = False if it is
+    not settled, and whether it took more than USUAL blocks.
     """
     heat.start(T)
     speeds = [body.speed for body in heat.bodies.each]
@@ -59,9 +59,11 @@ def settle(levels, heat, solve, T=None):
 
 
 def unsettled(means, loaded):
-    """Smallest difference (K) between the last run of blocks and the one before, over runs of 1, 2, 3 ... blocks (a flutter
-    of three blocks, 0.5 K at the outlet of cold oil, would differ by 0.09 K over runs of 2, 4 and 8 for ever); means: newest
-    first. Of runs with a block that lies more than FLUTTER off their mean, what it lies off."""
+    """Smallest difference (K) between the last series of blocks and the one before, over series of 1, 2, 3 ... blocks.
+
+    (A flutter of three blocks, 0.5 K at the outlet of cold oil, would differ by 0.09 K for ever over series of 2, 4 and 8.)
+    means: newest first. If a block differs from the mean of its series by more than FLUTTER, that difference counts.
+    """
     loads = [T[:, loaded] for T in means]
     return min(_difference(loads[: 2 * n]) for n in range(1, min(LONGEST_RUN, len(loads) // 2) + 1))
 
@@ -75,12 +77,12 @@ def _difference(blocks):
 
 
 def _whole_cells(steps, cells):
-    """About so many steps of `cells` each, that together are nearly whole cells."""
+    """Number of steps near `steps`, of `cells` cells each, that together are nearly whole cells."""
     return max(1, round(max(1, round(steps * cells)) / cells))
 
 
 def _march(heat, steps, dt):
-    """March `steps` time steps with the pressure at rest; returns the mean temperatures over them."""
+    """March `steps` time steps at constant pressure; returns the mean temperatures over them."""
     total = 0.0
     for _ in range(steps):
         heat.begin(dt)

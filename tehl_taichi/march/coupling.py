@@ -1,4 +1,4 @@
-"""Pressure and temperatures of one time step: rounds of both, until another one would not move the temperatures."""
+"""Coupling of pressure and temperatures in one time step: rounds of both until the temperatures no longer change."""
 
 import math
 
@@ -26,21 +26,20 @@ MORE_ROUNDS = 4
 
 
 def rounds(scene, part):
-    """Rounds of pressure and temperature of `part` of a step, at most: more for a part, but for a user who wants one lagged
-    round."""
+    """Largest number of rounds in `part` of a step: more for a part, unless the user wants one lagged round."""
     most = scene.thermal.rounds
     return most if part == 1.0 or most == 1 else MORE_ROUNDS * most
 
 
 def exchange(solver, heat, solve, most=None, sparing=False):
-    """Rounds until another one would change the temperatures by less than thermal.tolerance; solve() -> SolveReport of the
-    pressure; at most `most` of them (thermal.rounds).
-    Storage and heat have begun the step. Returns a SolveReport with the work of all rounds, converged = False without success.
+    """Alternate pressure (solve() -> SolveReport) and temperatures until a further round would change them by less than
+    thermal.tolerance.
 
-    The first round takes one Newton step only: its pressure belongs to guessed temperatures anyway. sparing: that of later ones
-    is solved for roughly while temperatures are far off, and takes over what hardly changes. Not for a start, where a state of
-    cold oil, with eddies in its inlet, shows only in what is left over after blocks of steps: gear at 20 deg C, SRR
-    -0.12, 64 columns, rested with 1.6 K instead of 0.05.
+    most: number of rounds (thermal.rounds). Storage and heat must have begun the step. Returns a SolveReport with the work of
+    all rounds, converged = False without success. The first round takes only one Newton step, because its temperatures are
+    guesses. sparing: while temperatures are far off, later rounds solve roughly and reuse slowly changing data. Not for a
+    start, where the state of cold oil, with eddies in its inlet, is only apparent from the remainders of blocks of steps: gear
+    at 20 deg C, SRR -0.12, 64 columns, then settled with 1.6 K instead of 0.05.
     """
     thermal, work, changes = solver.levels.scene.thermal, [], [math.inf]
     alternates = thermal.rounds > 1
@@ -68,12 +67,12 @@ def exchange(solver, heat, solve, most=None, sparing=False):
 
 
 def _endless(changes):
-    """Whether rounds of temperatures with these changes (K) do not settle."""
+    """Whether rounds of temperatures with these changes (K) do not converge."""
     return len(changes) >= SURELY and min(changes[-WITHIN:]) >= min(changes[:-WITHIN])
 
 
 def _pressure(solver, solve, first, sparing, far):
-    """Pressure of a round: the reports of its solves, and whether it is a rough one, since temperatures are still far off."""
+    """Pressure of a round: reports of its solves, and whether it is a rough one because temperatures are still far off."""
     work = [solver.improve(sparing)] if first else []
     if far and not (first and (solver.change < SMALL_CHANGE or work[0].residual < ROUGH)):
         work.append(solver.solve(enough=ROUGH))
@@ -83,8 +82,9 @@ def _pressure(solver, solve, first, sparing, far):
 
 
 def carefully(solver, P):
-    """The pressure of a step; where it does not converge at once, again from P, the last one accepted, with more care.
-    Returns a SolveReport with the work of both."""
+    """Solve the pressure of a step; if it does not converge, again from the last accepted P with a safer method. Returns a
+    SolveReport with the work of both.
+    """
     H0, report = solver.H0, solver.solve()
     if report.converged:
         return report

@@ -1,11 +1,11 @@
-"""The guess for the next step: extrapolations in time, each trusted where it was right one step ago.
+"""Prediction of the next step: extrapolations in time, each weighted by its accuracy in the last step.
 
-What a feature does to the pressure moves with it, what the contact does (its outlet spike, its inlet) stays: a field is
-extrapolated in the frame of the contact and in that of the feature. Which one is right differs from place to place and along
-the passage, so every node takes the mean of all guesses, weighted by how they would have guessed the newest state nearby.
+Pressure changes caused by a feature move with it, those of the contact (outlet spike, inlet) stay. So a field is extrapolated
+in the frame of the contact and in that of the feature. The better frame depends on the place and on the progress of the
+passage, so every node takes the mean of all predictions, weighted by their errors for the newest state nearby.
 
-Gear, isothermal, 256 columns, rms error of the guessed P/p_H with the asperity around -1.4 / -1 / -0.6 / -0.3 / 0.2 / 0.6 /
-0.9 / 1.1 a: one frame up to -0.2 a and the other from there on 1e-4 / 1e-3 / 3e-4 / 4e-4 / 5e-3 / 5e-3 / 7e-3 / 7e-3; trusted
+Gear, isothermal, 256 columns, rms error of the predicted P/p_H with the asperity around -1.4 / -1 / -0.6 / -0.3 / 0.2 / 0.6 /
+0.9 / 1.1 a: one frame up to -0.2 a and the other from there on 1e-4 / 1e-3 / 3e-4 / 4e-4 / 5e-3 / 5e-3 / 7e-3 / 7e-3; weighted
 by place, order 1 8e-5 / 9e-4 / 1e-4 / 2e-5 / 2e-5 / 1e-3 / 3e-3 / 3e-3, orders 1 and 2 3e-5 / 5e-4 / 5e-5 / 7e-6 / 9e-6 / 1e-3
 / 3e-3 / 3e-3. Newton / Krylov per step with orders up to 1, 2, 3, 4: 2.85/17.9, 2.33/16.2, 2.32/15.1, 2.31/15.0.
 """
@@ -39,7 +39,7 @@ MADE = 1  # and of the first of 2 * order guesses, frame after frame; behind the
 
 @ti.func
 def resting(F: ti.template(), at: ti.template(), edges: ti.template(), by_edge: ti.template(), state, i):
-    """Value at column i that does not move with the feature."""
+    """Value at column i of the part that does not move with the feature."""
     out = L(F, 0.0)
     if ti.static(by_edge):
         out += edges[state, i]
@@ -51,7 +51,7 @@ def resting(F: ti.template(), at: ti.template(), edges: ti.template(), by_edge: 
 @ti.func
 def with_feature(F: ti.template(), at: ti.template(), row, ways: ti.template(), edges: ti.template(), by_edge: ti.template(),
                  way):
-    """The state in a row after its moving part has moved."""
+    """State in a row after its moving part has moved."""
     out = resting(F, at, edges, by_edge, row, at.i)
     begin, end = nodes(ways, way)
     for m in range(begin, end):
@@ -63,7 +63,7 @@ def with_feature(F: ti.template(), at: ti.template(), row, ways: ti.template(), 
 @ti.kernel
 def extrapolate(F: ti.template(), G: Table, order: ti.template(), rows: Flat, ways: Table, weights: Table, edges: LinearTable,
                 by_edge: ti.template(), alone: ti.template()):
-    """The guesses, by polynomials of degree 1 to `order` through the states in `rows`."""
+    """Compute the predictions: polynomials of degree 1 to `order` through the states in `rows`."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for c in range(tiles(nx, ny)):
@@ -85,7 +85,9 @@ def extrapolate(F: ti.template(), G: Table, order: ti.template(), rows: Flat, wa
 @ti.kernel
 def judge(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), rows: Flat, edges: LinearTable,
           alone: ti.template()):
-    """The pressure in the first of `rows`; squares of what the guesses have missed it by, added up over neighbours along x."""
+    """Store the pressure in the first of `rows`, and squared errors of the predictions for it, summed over neighbours
+    along x.
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for c in range(tiles(nx, ny)):
@@ -109,7 +111,7 @@ def judge(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), ro
 
 @ti.func
 def nearby(F: ti.template(), at: ti.template(), row):
-    """A row, summed over each node and its neighbours along y."""
+    """Sum of a row over each node and its neighbours along y."""
     before, behind = columns_around(at, at.q)
     lower, upper = rows_around(at, F[row, at.q], F[row, before], F[row, behind])
     return lower + F[row, at.q] + upper
@@ -117,7 +119,7 @@ def nearby(F: ti.template(), at: ti.template(), row):
 
 @ti.kernel
 def trust(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), count: Flat, alone: ti.template()):
-    """The pressure from the first count[0] guesses of each frame, each trusted by one over the square of what it missed."""
+    """Combine the first count[0] predictions of each frame to a pressure, with weights 1/(squared error)."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for c in range(tiles(nx, ny)):
@@ -135,15 +137,14 @@ def trust(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), co
 
 
 class StateExtrapolation:
-    """The last pressures of `levels`, and their extrapolation.
+    """Last pressures of `levels`, and their extrapolation.
 
-    order: highest order of extrapolation; the newest pressure is that in the table; at: how far the feature has moved, in cells
-    (it moves at a constant speed, so this is the time, too); state: what :meth:`state` gave is continued from, if it is in
-    there.
+    order: highest order of extrapolation; the newest pressure is in the table; at: distance that the feature has moved, in
+    cells (its speed is constant, so this is also the time); state: result of :meth:`state` to continue from, if it contains it.
 
-    The outermost row of a line contact, which the feature does not reach, shows what does not move. A single row, and a
-    point contact, whose pressure ends before that row, remember their start instead. Newton steps by the outermost row and by
-    the start: `furrow-line` 3.49, 3.01; a ridge 3.08, 2.51; `ridge-on-ball` on 64 columns 2.84, 2.67; `gear` on 128 2.64, 2.82.
+    The outermost row of a line contact, which the feature does not reach, shows the resting part. A single row, and a point
+    contact, whose pressure ends before that row, store their start instead. Newton steps with the outermost row and with the
+    start: `furrow-line` 3.49, 3.01; a ridge 3.08, 2.51; `ridge-on-ball` on 64 columns 2.84, 2.67; `gear` on 128 2.64, 2.82.
     """
 
     def __init__(self, levels, order, at, state):
@@ -179,13 +180,13 @@ class StateExtrapolation:
         self.accept(at)
 
     def state(self):
-        """Arrays to continue from: the pressures, where the feature was, and the start where it is remembered."""
+        """Arrays to continue from: pressures, feature positions, and the start if it is stored."""
         start = {} if self.by_edge else {"P_start": self.past.get(START).astype(np.float32)}
         history = np.stack([self.past.get(row) for row in self.rows[: len(self.at)]]).astype(np.float32)
         return {"P_history": history, "P_moved": np.array(self.at), **start}
 
     def accept(self, at):
-        """The pressure in the table is the newest state."""
+        """Take the pressure in the table as the newest state."""
         if self.at and self.made != at:  # the guesses that its first ones are judged by
             self._look(self.rows, self.at[: self.order + 1], at)
         self.count[0] = max(1, min(len(self.at), self.order + 1) - 1)
@@ -195,7 +196,9 @@ class StateExtrapolation:
         self._judge()
 
     def put(self, to):
-        """The guess for the state with the feature at `to` into the table, not negative; the first one is the newest state."""
+        """Write the predicted pressure (not negative) for feature position `to` into the table; the first one is the newest
+        state.
+        """
         if len(self.at) == 1:
             newest, here = self.past.get(self.rows[0]), self.levels.get(P)
             self.levels.put(P, np.where(self.levels.get(MASK) > 0, newest, here))
@@ -205,7 +208,7 @@ class StateExtrapolation:
         self._trust()
 
     def _look(self, rows, at, to):
-        """Extrapolate the states in these rows, known at the places `at`, to the place `to`."""
+        """Extrapolate the states in these rows, known at positions `at`, to the position `to`."""
         self.weights[:] = 0.0
         for n, (row, where) in enumerate(zip(rows, at)):
             self.places[n] = row
@@ -217,5 +220,5 @@ class StateExtrapolation:
 
 
 def extrapolated(values, at, to):
-    """The number at `to` by the polynomial through the given ones."""
+    """Value at `to` of the polynomial through the given values."""
     return float(sum(weight * value for weight, value in zip(lagrange(at[: len(values)], to), values)))

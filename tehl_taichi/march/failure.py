@@ -1,4 +1,4 @@
-"""The reason of a failed solve, in a sentence with a remedy."""
+"""Reason of a failed solve, as a sentence with a remedy."""
 
 import numpy as np
 
@@ -13,8 +13,10 @@ HIGH = 5.0  # central films, more than a usual asperity (1.5 um over 0.4): featu
 
 
 def not_converged(solver, heat, report, where, passing=False):
-    """NotConverged for what is in the solver's table; heat: its FilmHeat or None; where: what was solved; passing: whether the
-    features of the scene are in the contact."""
+    """NotConverged for the state in the solver's table.
+
+    heat: its FilmHeat or None; where: text of the moment; passing: the features are in the contact.
+    """
     return NotConverged(f"{where} did not converge: {_reason(solver, heat, report, passing)}")
 
 
@@ -34,7 +36,7 @@ def _reason(solver, heat, report, passing):
 
 
 def _what_failed(solver, heat, report):
-    """The first that is not as it must be: pressure, mass, temperatures."""
+    """Text of the first failed part: pressure, mass, temperatures."""
     numerics = solver.levels.scene.numerics
     if not report.residual < numerics.tolerance:
         return (f"residual {report.residual:.1e} (tolerance {numerics.tolerance:.0e}), largest at {_worst(solver)}"
@@ -56,7 +58,7 @@ def _worst(solver):
 
 
 def _heated(heat):
-    """Reason that lies in the temperatures, "" if none."""
+    """Reason in the temperatures, "" if there is none."""
     if not heat or heat.sound:
         return ""
     found = [f"limited to their range (up to {HOT:g} deg C) at {heat.held} nodes"] * bool(heat.held)
@@ -65,7 +67,7 @@ def _heated(heat):
 
 
 def _on_its_floor(solver, passing):
-    """Advice for a film as thin as the equations allow, "" otherwise."""
+    """Advice for a film at the lower limit of the equations, "" otherwise."""
     v = solver.levels
     floor, nodes = v.G[0, fields.FLOOR], int((v.get(fields.H) < (1 + AT_FLOOR) * v.G[0, fields.FLOOR]).sum())
     if not nodes:
@@ -75,7 +77,9 @@ def _on_its_floor(solver, passing):
 
 
 def _too_high(scene):
-    """Features that no film carries, "" where there are none; a map may hold the form of its body, or another unit."""
+    """Text about features that no film carries, "" without any; a map may contain the form of its body, or have another
+    unit.
+    """
     if (top := max(f.top for f in scene.features)) <= HIGH * (film := heated_film(scene)):
         return ""
     measured = any(f.kind.measured for f in scene.features)
@@ -85,6 +89,6 @@ def _too_high(scene):
 
 
 def _finer(scene):
-    """The next grid, or the one that the film formula needs."""
+    """Advice: the next finer grid, or the grid that the film formula needs."""
     return (thin_film.remedy(scene) if thin_film.carried(scene) < 1
             else f"use a finer one, {refinement.finer_grid_option(scene)}")

@@ -1,10 +1,10 @@
-"""The part of the gap that features fill."""
+"""Part of the undeformed gap that belongs to features."""
 
 import numpy as np
 
 
 def smooth_with(levels, features):
-    """The undeformed gap (ny+1, nx+1) with features of surfaces at rest in it."""
+    """Undeformed gap (ny+1, nx+1) with the features of surfaces at rest."""
     gap = levels.smooth_gap()
     if features:
         gap = gap.copy()
@@ -14,7 +14,7 @@ def smooth_with(levels, features):
 
 
 def with_features(gap, levels, surfaces, X):
-    """A copy of the gap (ny+1, nx+1) with the features of both surfaces in it; X: way of the first one, a."""
+    """Copy of the gap (ny+1, nx+1) with the features of both surfaces; X: displacement of the first one, a."""
     gap = gap.copy()
     for surface in surfaces:
         for feature in surface.features:
@@ -23,15 +23,16 @@ def with_features(gap, levels, surfaces, X):
 
 
 def sink(gap, levels, surfaces, changes, X):
-    """Add to the gap what plastic flow took from the surfaces; changes: each a
-    :class:`tehl_taichi.plastic.surface_change.SurfaceChange`; X: way of the first feature, a."""
+    """Add the sinking of the surfaces by plastic flow to the gap; changes: each a
+    :class:`tehl_taichi.plastic.surface_change.SurfaceChange`; X: displacement of the first feature, a.
+    """
     s, paces = levels.scales, {surface.name: surface.pace for surface in surfaces}
     for change in changes:
         gap += change.at((levels.X - paces[change.surface] * X) * s.a, levels.Y * s.a) / s.h
 
 
 def take_off(gap, levels, feature, at):
-    """Take the heights of a feature off the gap; at: how far its surface has moved, a."""
+    """Subtract the heights of a feature from the gap; at: displacement of its surface, a."""
     s = levels.scales
     x, y = (levels.X - at) * s.a - feature.x, levels.Y[:, None] * s.a - feature.y
     under = np.abs(x) <= feature.reach

@@ -1,4 +1,6 @@
-"""The border of a steady start: it follows the film within isothermal solves, and moves between blocks of temperatures."""
+"""Pressure at the border during a steady start: it follows the film in isothermal solves, and changes between blocks of
+temperatures.
+"""
 
 import itertools
 
@@ -12,13 +14,13 @@ FIRST, LAST = 2, 10  # block from which on the border moves (temperatures are fa
 
 
 def border_of(levels):
-    """The Inlet of a flooded scene; None of a starved one."""
+    """The Inlet of a flooded scene; None for a starved one."""
     inlet = Inlet(levels)
     return inlet if inlet.flooded else None
 
 
 def between_blocks(solver, border):
-    """Function that solves the pressure after a block of temperatures, after some of them with another border."""
+    """Function that solves the pressure after a block of temperatures; after some blocks it also updates the border."""
     blocks = itertools.count()
 
     def solve():
@@ -30,8 +32,9 @@ def between_blocks(solver, border):
 
 
 def agreed(solver, border, report):
-    """From a steady film to that whose border agrees, at the same temperatures. Returns the SolveReport of the last solve that
-    converged, whose state is left in the table."""
+    """Iterate film and border to agreement at constant temperatures. Returns the SolveReport of the last converged solve, whose
+    state is in the table.
+    """
     if border is None or not report.converged or border.agrees():
         return report
     kept, solver.border = (solver.levels.get(fields.P), solver.H0), border

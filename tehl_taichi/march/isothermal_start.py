@@ -1,6 +1,6 @@
-"""Ways to a steady film of a solver: from Hertz' pressure, through parts of the slip, lower speeds or steps of time.
+"""Ways to a steady film: from the Hertz pressure, with growing slip, lower speeds or time steps.
 
-Each leaves what it found in the solver's table and returns the SolveReport of its last solve.
+Each leaves its result in the solver's table and returns the SolveReport of its last solve.
 """
 
 import numpy as np
@@ -23,10 +23,12 @@ SHORTEST_TIME, LONGEST_TIME, TIME_STEPS, ROUGHLY = 1e-2, 1e4, 60, 1e-4
 
 
 def from_nothing(solver):
-    """Start from Hertz' pressure without slip; then add the slip at once or in parts. Sheared from the start, a film that
-    Newton makes too thin for a moment flows off like water: the surfaces touch all over, which may be a solution too. So it
-    does where the pressure of a first guess strains the walls: that comes with the slip, or before it where it does not come
-    then (thick films of cold oil)."""
+    """Start from the Hertz pressure without slip, then add the slip at once or in parts.
+
+    If a film is sheared from the start and Newton makes it too thin for a moment, it flows off like water: the surfaces touch
+    everywhere, which may also be a solution. The same happens if the first guess of the pressure gradients shears the film at
+    the walls. So that shear is added with the slip, or before it if this fails (thick films of cold oil).
+    """
     for walls in (0.0, 1.0) if solver.levels.scene.rheology.thins else (1.0,):
         report = _with_slip(solver, walls)
         if report.converged:
@@ -35,7 +37,7 @@ def from_nothing(solver):
 
 
 def _with_slip(solver, walls):
-    """walls: part of their strain before the slip."""
+    """Add the slip; walls: part of the wall shear by pressure gradients before the slip."""
     v = solver.levels
     v.numbers.slip(0.0)
     v.numbers.strain(walls)
@@ -71,7 +73,7 @@ def _without_slip(solver):
 
 
 def again(solver):
-    """The pressure for other temperatures, which must not see what is left of earlier linear solves."""
+    """Solve the pressure for other temperatures, independent of data from earlier linear solves."""
     report = from_here(solver, CLOSE)
     return report if report.converged else _through_speeds(solver)
 
@@ -93,7 +95,7 @@ def put(solver, P, H0):
 
 
 def _through_speeds(solver):
-    """Start from Hertz' pressure at another speed and go to that of the scene; tries SPEEDS until one converges."""
+    """Start from the Hertz pressure at another speed, and change it to that of the scene; tries SPEEDS until one converges."""
     for speed in SPEEDS:
         _hertz(solver, FIRST_FILM * min(1.0, START_TRIES[-1] * speed**0.7))
         report = _from_speed(solver, speed)
@@ -105,7 +107,9 @@ def _through_speeds(solver):
 
 def _from_speed(solver, speed):
     """Go from the state in the table at `speed` times the scene's speed to that speed, in smaller steps after a failure.
-    Surfaces that touch on the way down would continue touching."""
+
+    Surfaces that touch on the way to lower speeds would remain in contact.
+    """
     v, step, down, known = solver.levels, LARGEST_STEP, speed > 1.0, None  # known: speed of the last film
     state = v.get(fields.P), solver.H0
     while True:
@@ -123,7 +127,7 @@ def _from_speed(solver, speed):
 
 
 def _at_speed(solver, speed, P, H0):
-    """Solve from P and H0 at `speed` times that of the scene; in time if that does not converge."""
+    """Solve from P and H0 at `speed` times that of the scene; by time steps if that does not converge."""
     solver.levels.numbers.slow_down(1 / speed)
     report = solver.solve(CAREFUL)
     return report if report.converged else in_time(solver, P, H0)

@@ -1,7 +1,7 @@
-"""The passage of a feature through the contact: steady start, then a march in time that yields snapshots.
+"""Passage of a feature through the contact: steady start, then a time march that yields snapshots.
 
 A time step: move the feature, predict, solve pressure (film, cavitation, contact and load at once) and temperature alternately,
-accept. All of it is in :class:`Passage`; a step that does not converge is taken in parts.
+accept. All of it is in :class:`Passage`; a step that does not converge is divided into parts.
 """
 
 import functools
@@ -35,12 +35,11 @@ __all__ = ["NotConverged", "Passage", "Snapshot", "march", "total_steps"]
 
 
 def march(scene, state=None, changes=()):
-    """Yield a Snapshot per time step, from the steady start or after the snapshot whose `state` is given (to be taken from it
-    before the next one is requested); changes: what plastic flow left of the surfaces
-    (:class:`tehl_taichi.plastic.surface_change.SurfaceChange`).
+    """Yield a Snapshot per time step, from the steady start, or after the snapshot whose `state` is given.
 
-    Raises SceneError where there is no room for the grid, NotConverged when a step fails for good. The same state gives the
-    same following steps, bit for bit.
+    Read `state` from a snapshot before the next one is requested. changes: sinking of the surfaces by plastic flow
+    (:class:`tehl_taichi.plastic.surface_change.SurfaceChange`). Equal states give equal steps, bit for bit. Raises SceneError
+    without enough memory for the grid, NotConverged if a step fails finally.
     """
     memory_demand.check(scene)
     scales = Scales.of(scene)
@@ -53,14 +52,14 @@ def march(scene, state=None, changes=()):
 
 
 class Passage:
-    """The march in time from a saved state."""
+    """Time march from a saved state."""
 
     def __init__(self, scene, scales, state, changes=()):
         self.scales, self.doubled, self.changes = scales, bool(state.get("double", False)), changes
         self._set_up(scene, state)
 
     def _set_up(self, scene, state, done=0.0):
-        """Tables and solvers of a scene, at a state that has `done` of its next step."""
+        """Create tables and solvers of a scene, at a state that has completed `done` of its next step."""
         scene = scene.replace(**{"numerics.precision": "f64"}) if self.doubled else scene
         self.scene, scales = scene, self.scales
         self.levels = Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric)
@@ -89,15 +88,16 @@ class Passage:
         return Storage(self.levels)
 
     def steps(self):
-        """Generator of the snapshots that follow. The next march has the tables of this one, and so its kernels, although
-        snapshots are kept."""
+        """Generator of the following snapshots. The next march uses the tables of this one, and so its kernels, even if
+        snapshots are kept.
+        """
         for _ in range(self.step, total_steps(self.scene)):
             shot = self.advance()
             yield shot
             shot.let_go(keep=self.step == total_steps(self.scene))
 
     def advance(self):
-        """One time step; where it does not converge, in parts."""
+        """Compute one time step; if it does not converge, in parts."""
         started, done, self.rejected = time.perf_counter(), 0.0, 0
         while done < 1.0:
             part = self.parts.next(done)
@@ -110,7 +110,9 @@ class Passage:
         return self._sound(self._describe(report, started))
 
     def _try(self, until, part):
-        """The state at `until` steps from here, `part` of a step after the last accepted one; accepted if it converged."""
+        """Compute the state `until` steps from here, `part` of a step after the last accepted one; accept it if it
+        converged.
+        """
         H0, at = self.solver.H0, self._moved(self.step + until)
         self._move_feature(self.step + until)
         self.storage.begin(part * self.dT)
@@ -129,16 +131,18 @@ class Passage:
         self.levels.put(fields.GAP0, gap)
 
     def _predict(self, at):
-        """Start values for the state with the feature `at` cells from its start."""
+        """Write predicted values for the state with the feature at `at` cells from its start."""
         self.prediction.put(at)
 
     def _exchange(self, part):
-        """Pressure and temperatures of a part of a step."""
+        """Solve pressure and temperatures of a part of a step."""
         self.heat.begin(part * self.dT * self.scales.t)
         return exchange(self.solver, self.heat, self._solve, rounds(self.scene, part), sparing=True)
 
     def _solve(self):
-        """The pressure, and with it film, cavitation, solid contact and load; carefully where it does not converge at once."""
+        """Solve the pressure with film, cavitation, solid contact and load; with a safer method if it does not converge at
+        once.
+        """
         return carefully(self.solver, self.P)
 
     def _accept(self, at, part):
@@ -157,9 +161,11 @@ class Passage:
                                 passing=True)
 
     def _double(self, done):
-        """Continue in double precision from the last accepted state, `done` of a step after the last whole one: single is
-        chosen by the smooth film, and under roughness that may be on its floor. Returns False where it is double already, or
-        the user's choice."""
+        """Continue in double precision from the last accepted state, `done` of a step after the last whole one.
+
+        Single precision is chosen by the smooth film, but a rough film may be on its floor. Returns False if the precision is
+        already double, or the user's choice.
+        """
         if self.levels.precision == "f64" or self.scene.numerics.precision != AUTO:
             return False
         state, self.doubled = self._accepted(), True
@@ -168,15 +174,17 @@ class Passage:
         return True
 
     def position(self, step):
-        """Centre of the first feature in units of a."""
+        """Position of the first feature's centre, in units of a."""
         return self.first + step * self.step_x
 
     def _moved(self, step):
-        """Cells that the features have moved after so many steps."""
+        """Number of cells that the features have moved after `step` steps."""
         return float(step * self.step_x / self.levels.dx)
 
     def _sound(self, shot):
-        """The snapshot, unless the surfaces cross at the border of the grid: there the pressure is given, not the gap."""
+        """Return the snapshot; raise if the surfaces cross at the border of the grid (there the pressure is given, not the
+        gap).
+        """
         if shot.fields["film"][self.border].min() < 0:
             raise crossed(shot, self.scales.a, self.border)
         return shot
@@ -194,6 +202,6 @@ class Passage:
         return {**self._accepted(), **self.parts.state(), **({"double": True} if self.doubled else {})}
 
     def _accepted(self):
-        """The last accepted state, whatever is in the tables."""
+        """Last accepted state, whatever the tables contain."""
         return {"step": self.step, "P": self.P, "H0": self.solver.H0, **(self.heat.state() if self.heat else {}),
                 **self.storage.state(), **self.prediction.state()}

@@ -1,4 +1,4 @@
-"""Start values of the next state: pressure, rigid approach and temperatures, extrapolated in time."""
+"""Prediction of the next state: pressure, rigid approach and temperatures, extrapolated in time."""
 
 import numpy as np
 
@@ -9,8 +9,9 @@ ORDER = 3  # of the extrapolation in time of the pressure
 
 
 class Prediction:
-    """Prediction of the state in the tables of `solver` and `heat` (or None), with the features moved by `at` cells; state:
-    that a run continues from, with what :meth:`state` gave in it, or of a start."""
+    """Prediction for the tables of `solver` and `heat` (or None); at: cells that the features have moved; state: to continue
+    from, with the result of :meth:`state`, or of a start.
+    """
 
     def __init__(self, solver, heat, at, state):
         self.solver, self.heat = solver, heat
@@ -19,14 +20,14 @@ class Prediction:
         self.temperature = TemperatureExtrapolation(heat, at, state) if heat else None
 
     def put(self, at):
-        """The guess for the state with the features at `at` into the tables."""
+        """Write the prediction for feature position `at` into the tables."""
         self.pressure.put(at)
         self.solver.H0 = extrapolated(self.heights[: ORDER + 1], self.pressure.at, at)
         if self.heat:
             self.temperature.put(at)
 
     def accept(self, at):
-        """The state in the tables, with the features at `at`, is the newest; call it before `heat` accepts that."""
+        """Take the state in the tables, with the features at `at`, as the newest; call it before `heat` accepts that state."""
         self.pressure.accept(at)
         self.heights = [self.solver.H0, *self.heights[:ORDER]]
         if self.heat:

@@ -1,11 +1,11 @@
-"""Pseudo-transient start, where the alternation of pressure and temperatures finds no steady state: both together in time.
-From the temperatures of a coarser grid where that has some, else from cold oil.
+"""Pseudo-transient start, if alternating pressure and temperature finds no steady state: both are marched in time together.
 
-In alternation, oil and bodies warm for a sixth of the domain under a film that does not answer: a thick one with a cold inlet
-overshoots, 30 to 80 K back and forth, or collapses. In time it answers within a step. Stages, see :func:`march_to_rest`: the
-slip grows (all at once, it would heat cold oil by 200 K in a step), blocks of steps until the temperatures rest, first with
-walls that carry all, then with those of the scene, and the steady equations from there; where they do not rest, shorter steps;
-where a step fails for good all of it again, with a slip that grows more slowly.
+It starts from the temperatures of a coarser grid if they exist, else from cold oil. In the alternation, oil and bodies warm for
+a sixth of the domain under a constant film: a thick one with a cold inlet overshoots by 30 to 80 K, alternating, or collapses.
+In time it responds within a step. Stages (see :func:`march_to_rest`): the slip grows (at once it would heat cold oil by 200 K
+in a step); blocks of steps until the temperatures settle, first without wall shear by pressure gradients, then with it; then
+the steady equations. If the temperatures do not settle, the steps become shorter; if a step fails finally, everything is
+repeated with a slower growth of the slip.
 """
 
 import math
@@ -36,10 +36,12 @@ SHORTER = 0.7
 
 
 def march_to_rest(solver, heat, P, H0, T=None, finest=True):
-    """From the isothermal P and H0 and the temperatures T of a coarser grid; without those, or where that fails on the finest
-    grid, from a cold film and cold bodies. Returns the SolveReport of the steady pressure; converged =
-    False where the temperatures do not rest: then the newest state in time is left, and heat.report.change (K) is what its last
-    two blocks differ by, inf where there are none."""
+    """March to steady state from the isothermal P and H0 and the temperatures T of a coarser grid; without those, or if that
+    fails on the finest grid, from a cold film and cold bodies.
+
+    Returns the SolveReport of the steady pressure. converged = False if the temperatures do not settle: then the newest state
+    in time is left, and heat.report.change (K) is the difference of its last two blocks, inf without any.
+    """
     for onset in _ways(T is not None, finest):
         put(solver, P, H0)
         heat.start(None if onset else T)
@@ -57,15 +59,17 @@ def march_to_rest(solver, heat, P, H0, T=None, finest=True):
 
 
 def _ways(warm, finest):
-    """Onsets of the slip to try one after the other, in transits; 0: from the temperatures of a coarser grid. A coarser grid,
-    which only gives an error and a start, has one."""
+    """Growth times of the slip to try in order, in transits; 0: from the temperatures of a coarser grid. A coarser grid, needed
+    only for an error and a start, has one.
+    """
     cold = ONSETS if finest else ONSETS[: 1 - warm]
     return (0.0, *cold) if warm else cold
 
 
 def check(solver, heat):
-    """A block from what counts as settled. Returns the SolveReport of the steady pressure; converged = False where the block
-    moves the temperatures by more than FLUTTER."""
+    """March one block from a settled state. Returns the SolveReport of the steady pressure; converged = False if the block
+    changes the temperatures by more than FLUTTER.
+    """
     heat.bodies.steady = True
     together = PseudoTransient(solver, heat)
     together.mean = heat.T
@@ -82,11 +86,11 @@ def _judged(together, change, most):
 
 
 class PseudoTransient:
-    """A smooth contact in time, from the pressure in the solver's table and the state of `heat`. On the way its walls carry all
-    that the pressure needs: a smooth contact hardly strains them, but the oil that a start at 20 deg C heaps up yields by
-    GPa a cell.
+    """Time march of a smooth contact, from the pressure in the solver's table and the state of `heat`.
 
-    report: of the last solve; lost: whether a step failed for good; mean: temperatures of the last block.
+    On the way its walls carry any shear by pressure gradients: a smooth contact has little of it, but the oil that accumulates
+    in a start at 20 deg C yields under pressure differences of GPa per cell. report: of the last solve; lost: a step failed
+    finally; mean: temperatures of the last block.
     """
 
     def __init__(self, solver, heat):
@@ -100,7 +104,7 @@ class PseudoTransient:
         self.storage = Storage(self.levels)
 
     def slip_in(self, onset):
-        """The slip grows from nothing, within `onset` transits."""
+        """Let the slip grow from zero within `onset` transits."""
         self.levels.numbers.strain(0.0)
         whole, steps = self.levels.conditions["u_s"], min(math.ceil(onset * self.transit), MOST_STEPS // 4)
         for n in range(steps):
@@ -114,9 +118,10 @@ class PseudoTransient:
         self.levels.numbers.slip(part)
 
     def rest(self, walls=1.0, most=None):
-        """Blocks of steps, with this part of what strains the walls, until runs of them differ by less than SETTLED, after
-        PATIENT ones by less than STILL, or there were enough. Returns the last difference, K, as
-        :func:`tehl_taichi.march.alternating_start.unsettled` measures it."""
+        """March blocks of steps with this part of the wall shear by pressure gradients, until series of them differ by less
+        than SETTLED, after PATIENT blocks by less than STILL, or until `most` blocks. Returns the last difference (K), see
+        :func:`tehl_taichi.march.alternating_start.unsettled`.
+        """
         self.mean, change = self.heat.T, math.inf
         means = [self.mean]
         for n in range(min(most or BLOCKS, MOST_STEPS // self._block_steps)):
@@ -130,18 +135,20 @@ class PseudoTransient:
         return change
 
     def settled(self):
-        """Blocks until they rest, then the check of that. Returns (last difference in K, what it must be less than)."""
+        """March blocks until they settle, then check. Returns (last difference in K, its limit)."""
         change = self.rest()
         if change < STILL and not self.lost:
             return self.checked(), FLUTTER
         return change, 0.0
 
     def shorten(self):
-        """Shorter steps from here on, by which no surface moves whole cells."""
+        """Use shorter steps from now on, in which no surface moves whole cells."""
         self.dt, self.transit = SHORTER * self.dt, self.transit / SHORTER
 
     def checked(self):
-        """The steady pressure from here, a block of steps, the steady pressure again. Returns what the block changed, K."""
+        """Solve the steady pressure, march a block of steps, solve the steady pressure again. Returns the change by the block,
+        K.
+        """
         self.at_rest()
         change = self.block() if self.report.converged else math.inf
         if not self.lost:
@@ -153,8 +160,9 @@ class PseudoTransient:
         return math.ceil(BLOCK * self.transit)
 
     def block(self, walls=1.0):
-        """So many steps, with this part of what strains the walls. Returns by how much their mean temperatures differ from
-        those of the last block under load, K; inf where a step failed for good."""
+        """March a block of steps with this part of the wall shear by pressure gradients. Returns the change of the mean
+        temperatures under load, K; inf if a step failed finally.
+        """
         self.levels.numbers.strain(walls)
         before, total = self.mean, 0.0
         for _ in range(self._block_steps):
@@ -165,14 +173,14 @@ class PseudoTransient:
         return math.inf if self.lost else float(np.abs(self.mean - before).max(axis=0)[self.P > LIGHT].max())
 
     def at_rest(self):
-        """The steady equations, at the temperatures of the film."""
+        """Solve the steady equations at the temperatures of the film."""
         self.levels.numbers.strain(1.0)
         self.levels.numbers.set_rate(0.0)
         self.levels.put(fields.QOLD, 0.0)
         self.report = again(self.solver)
 
     def _step(self):
-        """A step, in parts where it does not converge."""
+        """Compute one step, in parts if it does not converge."""
         done = 0.0
         while done < 1.0 and not self.lost:
             part = self.parts.next(done)
@@ -183,7 +191,7 @@ class PseudoTransient:
                 self.lost = not self.parts.reject(part)
 
     def _try(self, dt):
-        """Accept the state dt s later, or leave the last one; whether it converged."""
+        """Accept the state dt s later if it converged, else keep the last one. Returns whether it converged."""
         v, dT, H0 = self.levels, dt / self.levels.scales.t, self.solver.H0
         self.storage.begin(dT)
         self.heat.begin(dt)

@@ -1,4 +1,4 @@
-"""The numbers of a summary that are computed from the steps of a run, and those of its fatigue, an entry each.
+"""Numbers of a summary that follow from the steps of a run, and those of its fatigue, one entry each.
 
 Summary, error bars, `tehl show`, reports and the tables of flanks read these entries: a new number is a new entry.
 """
@@ -17,10 +17,13 @@ SHARP, SWAYED = "sharp", "swayed"  # numbers that an unresolved pressure peak le
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
-    """part, key: its place in the summary ("transient", "p_max_Pa"); series: the number of a step that it is computed from, ""
-    of a number of the fatigue; over: how, a key of OVER. error: "" (it has no error bar), "plain", SHARP or SWAYED; positive:
-    whether it is so by nature. label: its row in `tehl show` ("": none), factor, shown: from SI to the unit there; column,
-    head, form: of the table of a flank ("": not there). says: long name, where it has no series; exists(scene)."""
+    """A number of the summary.
+
+    part, key: its place ("transient", "p_max_Pa"); series: number of a step from which it is computed, "" for fatigue; over:
+    reduction, a key of OVER; error: "" (no error bar), "plain", SHARP or SWAYED; positive: by nature; label: its row in `tehl
+    show` ("": none); factor, shown: from SI to the printed unit; column, head, form: of the table of a flank ("": none); says:
+    long name, if it has no series; exists(scene).
+    """
 
     part: str
     key: str
@@ -55,11 +58,13 @@ class Entry:
 
     @property
     def unit(self):
-        """SI, as stores write it."""
+        """SI unit, as in stores."""
         return entries(Scalar)[self.series].unit if self.series else "1"
 
     def of(self, values, weights):
-        """Its value from the series of a run, the steady start first; weights: steps that every later entry stands for."""
+        """Value from the series of a run, the steady start first; weights: number of steps that every later entry
+        represents.
+        """
         if self.over == "mean":
             return float(np.average(values[1:], weights=weights))
         return float({"start": lambda: values[0], "maximum": lambda: np.max(values[1:]),
@@ -113,7 +118,7 @@ ENTRIES = (
 
 
 def of_part(part, scene=None):
-    """The entries of a part of the summary; scene: of those that it has."""
+    """Entries of a part of the summary; scene: only those that it has."""
     return [entry for entry in ENTRIES if entry.part == part and (scene is None or entry.exists(scene))]
 
 

@@ -1,4 +1,4 @@
-"""A made-up state of 2 x 3 nodes, small enough to know by hand what every output of it is."""
+"""A made-up state of 2 x 3 nodes, small enough to check every output by hand."""
 
 from types import SimpleNamespace
 

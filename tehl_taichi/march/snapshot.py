@@ -1,4 +1,4 @@
-"""A snapshot: one accepted state of a run in SI units; while it is the newest, a march can continue from it."""
+"""Snapshot: one accepted state of a run in SI units; while it is the newest, a march can continue from it."""
 
 import functools
 from dataclasses import dataclass, field
@@ -76,7 +76,7 @@ class Snapshot:
         return self.make_state()
 
     def let_go(self, keep):
-        """Hold no solver any more, and keep the state or not."""
+        """Release all solvers; keep: whether the state is kept."""
         if keep:
             self.state  # noqa: B018 - it is cached
         self.make_state = functools.partial(gone, self.step)
@@ -87,8 +87,10 @@ def gone(step):
 
 
 def take(solved, step, time_s, feature_x, make_state):
-    """Snapshot of a :class:`tehl_taichi.march.solved_state.SolvedState`: every output that its scene has (`march/outputs/`);
-    feature_x in m; make_state: see :class:`Snapshot`."""
+    """Snapshot of a :class:`tehl_taichi.march.solved_state.SolvedState`, with every output of its scene (`march/outputs/`).
+
+    feature_x in m; make_state: see :class:`Snapshot`.
+    """
     v, a = solved.solver.levels, solved.scales.a
     nodes = {name: np.ascontiguousarray(field.of(solved).swapaxes(0, 1)) for name, field in fields_of(solved.scene).items()}
     numbers = {name: float(scalar.of(solved)) for name, scalar in scalars_of(solved.scene).items()}

@@ -1,4 +1,4 @@
-"""State of the solver after a step, as the entries of `march/outputs/` see it: each value is taken from its table once."""
+"""State of the solver after a step, for the entries of `march/outputs/`: each value is read from its table once."""
 
 import functools
 import time
@@ -14,8 +14,9 @@ from tehl_taichi.pressure.newton import PressureSolver, SolveReport
 
 @dataclass(frozen=True, eq=False)
 class SolvedState:
-    """An accepted state, dimensionless. report: of its solve; started: time.perf_counter() when the step began; heat: None
-    without temperatures; rejected: attempts; dt: of the step, s; moved: X, the clock of the passage, in a (None: its start)."""
+    """An accepted state, dimensionless. report: of its solve; started: time.perf_counter() at the start of the step; heat: None
+    without temperatures; rejected: attempts; dt: of the step, s; moved: X, the clock of the passage, in a (None: steady start).
+    """
 
     solver: PressureSolver
     heat: Optional[FilmHeat]
@@ -52,7 +53,7 @@ class SolvedState:
 
     @functools.cached_property
     def touch(self):
-        """1 where the surfaces touch (ny+1, nx+1)."""
+        """Mask (ny+1, nx+1): 1 where the surfaces touch."""
         return self.solver.levels.get(fields.TOUCH)
 
     @property
@@ -67,7 +68,7 @@ class SolvedState:
 
     @functools.cached_property
     def extremes(self):
-        """h_c, h_min, p_max."""
+        """Numbers h_c, h_min, p_max."""
         return scalars(self.solver.levels, self.P, self.H)
 
     @property
@@ -77,12 +78,12 @@ class SolvedState:
 
     @property
     def load(self):
-        """Load that the pressure carries."""
+        """Load carried by the pressure."""
         return self.solver.load
 
     @property
     def wall(self):
-        """Run time of the step so far, s."""
+        """Elapsed time of the step, s."""
         return time.perf_counter() - self.started
 
     @functools.cached_property

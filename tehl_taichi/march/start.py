@@ -1,4 +1,4 @@
-"""The first snapshot of a run: the steady smooth contact, on the rows of the passage."""
+"""First snapshot of a run: the steady smooth contact, on the rows of the passage."""
 
 import math
 import time
@@ -17,8 +17,9 @@ from tehl_taichi.values.coded_text import Reason
 
 
 class StartReadings:
-    """What is seen of the grids of a start, from now on; newest: the snapshot of the last one that converged; by_columns: those
-    of all grids, by their columns."""
+    """Readings of the grids of a start. newest: snapshot of the last grid that converged; by_columns: those of all grids, by
+    their columns.
+    """
 
     def __init__(self, scene):
         self.scene, self.started, self.newest, self.by_columns = scene, time.perf_counter(), None, {}
@@ -31,17 +32,20 @@ class StartReadings:
         return readings.steady(self.newest, self.scene)
 
     def coarser(self, first):
-        """Snapshots of the two grids before that of `first`, the coarser one first."""
+        """Snapshots of the two next coarser grids than that of `first`, the coarser one first."""
         return [found for columns, found in sorted(self.by_columns.items()) if columns < first.x.size][-2:]
 
     def taken(self, solver, heat, report):
-        """The snapshot of what is in the solver's table."""
+        """Snapshot of the state in the solver's table."""
         return snapshot.take(SolvedState(solver, heat, report, self.started), 0, 0.0, math.nan, None)
 
 
 def steady_snapshot(scene, scales):
-    """Snapshot 0 with the error bars of its numbers; of a passage whose temperatures do not settle, a state in time, with the
-    reason why none of its numbers is known. Raises NotConverged where there is neither."""
+    """Snapshot 0 with the error bars of its numbers.
+
+    In a passage whose temperatures do not settle: a state in time, with the reason why its numbers are unknown. Raises
+    NotConverged if neither is found.
+    """
     looks, (rows, full) = StartReadings(scene), _across(scene, scales)
     result = solve_steady(scene, scales, scene.grid.nx, rows, looks, full)
     unsettled = _unsettled(result, scene)
@@ -56,14 +60,16 @@ def steady_snapshot(scene, scales):
 
 
 def _across(scene, scales):
-    """(cells across, whether they are those of the whole domain): features at rest that vary across need the passage's."""
+    """(cells along y, whether they cover the whole domain): resting features that vary along y need the cells of the
+    passage.
+    """
     if all(f.transverse and scales.line or f.symmetric and not scales.line for f in scene.standing):
         return 0 if scales.line else scene.grid.ny, False
     return scene.rows, not scene.symmetric
 
 
 def _unsettled(result, scene):
-    """Why the finest state is one in time; "": it is steady. Raises NotConverged where it is neither."""
+    """Reason why the finest state is only a state in time; "": it is steady. Raises NotConverged if it is neither."""
     if result.report.converged:
         return ""
     failure = not_converged(result.solver, result.heat, result.report, "the steady start")
@@ -73,7 +79,7 @@ def _unsettled(result, scene):
 
 
 def _bars(first, scene):
-    """(bars, why some are unknown, their parts by grid and domain)."""
+    """(bars, reasons of unknown ones, their parts by grid and domain)."""
     own = readings.steady(first, scene)
     found = _unknown(first, scene) if first.unsettled else bars(first.grids)
     return widened(*found, {name: reading.value for name, reading in own.items()}, first.domain,
@@ -81,13 +87,13 @@ def _bars(first, scene):
 
 
 def _unknown(first, scene):
-    """Bars of a state in time: none, and why."""
+    """Bars of a state in time: all unknown, with the reason."""
     why = Reason(f"not converged: {first.unsettled}", "unsettled")
     return tuple(dict.fromkeys(readings.steady(first, scene), each) for each in (None, why))
 
 
 def _spread(first, scene, scales):
-    """The smooth start on the rows of the passage: a line copied to every row, a half mirrored to the whole."""
+    """Smooth start on the rows of the passage: a line copied to every row, a half domain mirrored to the whole."""
     if scene.transient:
         first.feature_x = scene.path[0] * scales.a
     rows = scene.rows + 1 if scene.transient else first.y.size
@@ -102,7 +108,7 @@ def _spread(first, scene, scales):
 
 
 def _rows(y, rows, scene, scales):
-    """(places (m) of so many rows, the row of `y` that each is like)."""
+    """(positions (m) of `rows` rows, the row of `y` that each copies)."""
     if y.size > 1:
         return np.concatenate([-y[:0:-1], y]), np.abs(np.arange(rows) - scene.grid.ny)
     extent = scene.grid.y_max * scales.b

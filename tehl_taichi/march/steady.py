@@ -1,4 +1,4 @@
-"""Steady contact from nothing: Hertz pressure on a coarse grid, then every finer grid from the one before.
+"""Steady contact: Hertz pressure on a coarse grid, then each finer grid from the last one.
 
 The results of the coarser grids give the error of the finest (error_bars).
 """
@@ -27,8 +27,9 @@ FINEST_THERMAL = 4  # temperatures on the grids up to four times as coarse as th
 
 @dataclass
 class SteadyResult:
-    """solver: holds the finest state; report: its last solve; values: what `look` saw on each grid that counts for its error,
-    coarsest first; work: Krylov iterations; moving: whether what did not converge is a state in time."""
+    """solver: holds the finest state; report: of its last solve; values: results of `look` on each grid that counts for its
+    error, coarsest first; work: Krylov iterations; moving: the unconverged result is a state in time.
+    """
 
     solver: PressureSolver
     report: SolveReport
@@ -39,7 +40,7 @@ class SteadyResult:
 
 
 def grid_sequence(nx, ny):
-    """Sizes from the first grid up to (nx, ny), each twice as fine: three where FIRST_CELLS or more allow it."""
+    """Sizes from the first grid up to (nx, ny), each twice as fine; three grids if FIRST_CELLS or more cells allow it."""
     sizes, first = [(nx, ny)], min(FIRST_CELLS, max(nx // 4, LEAST_CELLS))
     while nx % 2 == 0 and nx // 2 >= first and ny % 2 == 0 and (ny == 0 or ny // 2 >= 4):
         nx, ny = nx // 2, ny // 2
@@ -48,9 +49,12 @@ def grid_sequence(nx, ny):
 
 
 def solve_steady(scene, scales, nx, ny, look=None, full=False):
-    """Steady contact on nx x ny cells (ny = 0: line; full: of the whole domain), smooth but for the features of a surface at
-    rest. look(solver, heat, report): what to keep of each grid, by default
-    its :func:`scalars`. Returns a SteadyResult; check `report.converged`."""
+    """Steady contact on nx x ny cells (ny = 0: line; full: on the whole domain), smooth except for the features of a surface at
+    rest.
+
+    look(solver, heat, report): result to keep for each grid, by default its :func:`scalars`. Returns a SteadyResult; check
+    `report.converged`.
+    """
     look = look or (lambda solver, heat, report: scalars(solver.levels, *map(solver.levels.get, (fields.P, fields.H))))
     P, H0, T, values, work, moving = None, 0.0, None, [], 0, False
     for size in grid_sequence(nx, ny):
@@ -79,8 +83,9 @@ def solve_steady(scene, scales, nx, ny, look=None, full=False):
 
 
 def _with_temperatures(solver, heat, T, finest):
-    """Alternately, from the temperatures T of a coarser grid; in time, where that fails. Returns the SolveReport, and whether
-    what did not settle on the finest grid is a state in time."""
+    """Alternate from the temperatures T of a coarser grid; march in time if that fails. Returns the SolveReport, and whether an
+    unsettled result on the finest grid is a state in time.
+    """
     P, H0, resolved = solver.levels.get(fields.P), solver.H0, finest and not _touches(solver)
     border, solver.border = solver.border, None
     report, trouble = settle(solver.levels, heat, between_blocks(solver, border), T)
@@ -98,7 +103,7 @@ def _touches(solver):
 
 
 def _from_coarser(solver, P, H0):
-    """Solve from the coarser grid; in time if Newton fails, as for a film too thin for the coarser grid."""
+    """Solve from the coarser grid's state; by time steps if Newton fails, as for a film too thin for the coarser grid."""
     P = refine(P)  # the border's, too
     put(solver, P, H0)
     for way in (from_here, lambda each: in_time(each, P, H0), from_nothing):

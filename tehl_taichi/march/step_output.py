@@ -1,7 +1,7 @@
 """Outputs of every step: an entry of `march/outputs/` for each field and each number.
 
-An entry says its unit, when there is one and how it follows from what the solver holds; snapshots are made of these entries
-and stores keep them. Nothing here imports taichi: stores are read without it.
+An entry has its unit, the scenes it exists for, and its formula in terms of the solved state. Snapshots are made of these
+entries and stores keep them. Nothing here imports taichi: stores are read without it.
 """
 
 import functools
@@ -16,25 +16,26 @@ from tehl_taichi.values.registry import Checked, Entry, collect
 
 
 def always(scene):
-    """True: an output of every scene."""
+    """Condition for an output of every scene."""
     return True
 
 
 def thermal(scene):
-    """Whether the scene has temperatures."""
+    """Condition: the scene has temperatures."""
     return not scene.isothermal
 
 
 def passing(scene):
-    """Whether the scene has a passage."""
+    """Condition: the scene has a passage."""
     return scene.transient
 
 
 @dataclass(frozen=True, kw_only=True)
 class StepOutput(Entry):
-    """One value of a step. says: its long name; of(solved): from a :class:`tehl_taichi.march.solved_state.SolvedState`;
-    exists(scene): whether a run of that scene has it; by_hand: the sum of what `of` gives on
-    :data:`tehl_taichi.march.sample_state.SAMPLE`."""
+    """One value of a step. says: long name; of(solved): from a :class:`tehl_taichi.march.solved_state.SolvedState`;
+    exists(scene): whether a run of that scene has it; by_hand: sum of the result of `of` for
+    :data:`tehl_taichi.march.sample_state.SAMPLE`.
+    """
 
     unit: str
     of: Callable
@@ -51,8 +52,9 @@ class StepOutput(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Field(StepOutput):
-    """A value at every node: `of` gives (ny+1, nx+1) or, with "zeta" among dims, (ny+1, nx+1, nodes across the film); stored
-    along dims as dtype."""
+    """A value at every node: `of` returns (ny+1, nx+1) or, with "zeta" among dims, (ny+1, nx+1, nodes across the film); stored
+    along dims as dtype.
+    """
 
     dtype: str = "f4"
     dims: tuple[str, ...] = ("x", "y")
@@ -60,7 +62,7 @@ class Field(StepOutput):
 
 @dataclass(frozen=True, kw_only=True)
 class Scalar(StepOutput):
-    """A number. over: how it stands for several steps where only every n-th is stored (CF's cell methods)."""
+    """A number. over: reduction over several steps if only every n-th step is stored (CF's cell methods)."""
 
     over: str
 
@@ -72,7 +74,7 @@ def entries(kind):
 
 
 def names():
-    """Names of all outputs, whether a scene has them or not."""
+    """Names of all outputs, for any scene."""
     return [*entries(Field), *entries(Scalar)]
 
 

@@ -1,4 +1,4 @@
-"""Parts of a time step: halves of what does not converge, and twice as much again after a while."""
+"""Parts of a time step: a part that does not converge is halved, and doubled again after a while."""
 
 # Of a step that does not converge: it is taken in halves down to this part. With 1/16 the asperity of 100 um stops at 1.12 a on
 # 128 columns, where it touches
@@ -11,8 +11,8 @@ FIRST_PAUSE, LONGEST_PAUSE = 2, 128
 class Substeps:
     """Parts 1, 1/2, 1/4 ... of the steps of a march.
 
-    part: the largest that is tried next; left: parts to take before it grows; pause: of these after the next failure; failing:
-    whether the last one failed.
+    part: largest size to try next; left: number of parts before it grows; pause: that number after the next failure; failing:
+    the last one failed.
     """
 
     def __init__(self, part=1.0, left=0, pause=FIRST_PAUSE, failing=False):
@@ -20,7 +20,7 @@ class Substeps:
 
     @classmethod
     def of(cls, state):
-        """Substeps of a saved state, where it has any."""
+        """Substeps of a saved state, if it has them."""
         return cls(*state["parts"]) if "parts" in state else cls()
 
     def state(self):
@@ -32,7 +32,7 @@ class Substeps:
         return min(1.0 - done, self.part)
 
     def accept(self, part):
-        """Accept `part` of a step, which converged; the last part of a step, smaller than others, changes no step size."""
+        """Accept `part` of a step, which converged; a smaller last part of a step does not change the size."""
         whole, self.failing = part == self.part, False
         if whole and not self.left:
             self.pause = max(FIRST_PAUSE, self.pause // 2)
@@ -41,8 +41,9 @@ class Substeps:
             self.part = min(1.0, 2 * self.part)
 
     def hold(self, heat):
-        """Try the smallest part again with few columns of a film (or None) that have no temperatures; False where that does not
-        help."""
+        """Allow another try of the smallest part, with a few columns of a film (or None) held without temperatures. Returns
+        False if that does not help.
+        """
         if not (heat and heat.hold()):
             return False
         self.part = SMALLEST

@@ -1,4 +1,4 @@
-"""Rows of the Jacobian where a node is dry (P = 0) or in solid contact (the film is at its floor): their own equations."""
+"""Rows of the Jacobian for dry nodes (P = 0) and nodes in solid contact (film at its floor)."""
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.simd import Blocks, L, Table, cells
@@ -32,7 +32,7 @@ def dry_rows(S: ti.template(), J: ti.template(), k):
 
 @ti.kernel
 def replace_rows(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, touching: ti.i32, alone: ti.template()):
-    """Rows of dry and touching nodes on every level that is solved on."""
+    """Replace the rows of dry and touching nodes on every level that is solved."""
     ti.loop_config(block_dim=1, serialize=alone)
     for b in range(blocks.shape[0]):
         l, s = blocks[b, 0], blocks[b, 1]

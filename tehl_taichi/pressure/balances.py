@@ -1,4 +1,4 @@
-"""Complementarity, sets and balances of the present state: partial sums per block, added up in a fixed order."""
+"""Complementarity, active sets and balances of the present state: partial sums per block, added in a fixed order."""
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.simd import Flat, LinearFlat, Table, V, W, cells, face_weights, lanes_in, lanes_out
@@ -10,21 +10,22 @@ SUMS = 4
 
 @ti.func
 def parts(S: ti.template(), k, floor, inv):
-    """The three sides of the complementarity: P, R/D, (H - H_floor)/K_00; inv = 1/K_00."""
+    """Three sides of the complementarity: P, R/D, (H - H_floor)/K_00; inv = 1/K_00."""
     return S[P, k], S[R, k] / S[D, k], (S[H, k] - floor) * inv
 
 
 @ti.func
 def sets(p, r, gap, inside):
-    """(touch, dry) of a node, 1 or 0: the side of the complementarity that is smallest; the rest is full film."""
+    """(touch, dry) of a node, 1 or 0: the smallest side of the complementarity; other nodes have a full film."""
     touch = ti.select(gap < ti.min(p, r), inside, V(0.0))
     return touch, ti.max(ti.select(p - r <= 0.0, 1.0 - touch, V(0.0)), 1.0 - inside)
 
 
 @ti.kernel
 def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table, alone: ti.template()):
-    """out[block, ...]: PHI2, of the complementarity, LOAD, OUTFLOW, net, of the full-film region, COUETTE, flux through the
-    column `middle`."""
+    """Partial sums out[block, ...]: PHI2 of the complementarity, LOAD, OUTFLOW (net, of the full-film region), COUETTE (flux
+    through the column `middle`).
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
@@ -52,8 +53,11 @@ def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table, alone: ti.templ
 @ti.kernel
 def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: LinearFlat, mass_row: LinearFlat,
                 touching: Table, alone: ti.template()):
-    """DRY, TOUCH and the row scale; b = right-hand side of the scaled Newton equations (touching rows are the caller's);
-    mass_row = weight of each scaled row in the net outflow; touching[block, 0] = touching nodes."""
+    """Set DRY, TOUCH and the row scale.
+
+    b: right-hand side of the scaled Newton equations (the caller sets touching rows); mass_row: weight of each scaled row in
+    the net outflow; touching[block, 0]: number of touching nodes.
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
@@ -75,7 +79,7 @@ def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: Li
 
 @ti.kernel
 def advance(S: ti.template(), G: Table, old: Flat, step: LinearFlat, t: Flat, alone: ti.template()):
-    """P = max(old + t[0] step, 0) on the unknowns."""
+    """Set P = max(old + t[0] step, 0) on the unknowns."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
@@ -86,7 +90,7 @@ def advance(S: ti.template(), G: Table, old: Flat, step: LinearFlat, t: Flat, al
 
 @ti.kernel
 def save(S: ti.template(), G: Table, row: ti.i32, out: Flat, alone: ti.template()):
-    """out = S[row] of the finest level, in block order."""
+    """Copy S[row] of the finest level to `out`, in block order."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):

@@ -1,4 +1,4 @@
-"""The numbers of a scene that kernels take, see :mod:`tehl_taichi.engine.records`."""
+"""Numbers of a scene for kernels, see :mod:`tehl_taichi.engine.records`."""
 
 import math
 
@@ -27,7 +27,7 @@ class Conditions:
 
 
 def conditions(scene, scales, X):
-    """Record of the Conditions of a scene on columns at X."""
+    """Record of the Conditions of a scene, with columns at X."""
     o, inlet = scene.operation, scene.operation.temperature
     ln_eta0 = float(ln_eta(scene.oil, 0.0, inlet))
     return Record(Conditions, p_H=scales.p_H, h=scales.h, a=scales.a, inlet=inlet, ln_eta0=ln_eta0, eta0=math.exp(ln_eta0),

@@ -1,6 +1,6 @@
-"""The film under the pressure in the table: its deflection, in double precision, as one kernel of workers.
+"""Film for the pressure in the table: elastic deflection in double precision, as one kernel of workers.
 
-Three phases: pairs of blocks of the pressure along x to waves, groups of waves along y, and back into the film.
+Three phases: transforms along x of pairs of pressure blocks, transforms along y of groups of waves, and back to the film.
 """
 
 import numpy as np
@@ -38,8 +38,11 @@ Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 
 @ti.func
 def bends(C: ti.template(), first_row):
-    """1 in the lanes of a block whose pressure bends the bodies: not that of the sides of a point contact, which is given and
-    small, and which the transforms of a half domain would take twice."""
+    """Factor (1 or 0) for the lanes of a block: 1 if their pressure deflects the bodies.
+
+    It is 0 at the sides of a point contact, where the pressure is given and small, and which the transforms of a half domain
+    would count twice.
+    """
     out, last = V(1.0), C[0, NY]
     for u in ti.static(range(W)):
         side = first_row + u >= last or (first_row + u == 0 and C[0, HALF_FIRST] == 0)
@@ -49,7 +52,7 @@ def bends(C: ti.template(), first_row):
 
 @ti.func
 def take_pressure(S: ti.template(), Y: ti.template(), G: ti.template(), C: ti.template(), j, w):
-    """The pressure of pair j to the rows of worker w."""
+    """Copy the pressure of pair j to the rows of worker w."""
     first, second, n2 = pair(G, 0, j)
     a, block = buffer(C, w), ti.min(2 * j + 1, C[0, NY] // W)
     one, other = bends(C, 2 * j * W), bends(C, block * W)
@@ -60,7 +63,7 @@ def take_pressure(S: ti.template(), Y: ti.template(), G: ti.template(), C: ti.te
 
 @ti.func
 def bent(S: ti.template(), k, first_row, ny, change, H0):
-    """H of the block of `first_row` in column k from its deflection; ghosts are not deflected."""
+    """Film H of the block of `first_row` in column k from its deflection; ghosts are not deflected."""
     there = V(0.0)
     for u in ti.static(range(W)):
         there[u] = 1.0 if first_row + u <= ny else 0.0
@@ -69,7 +72,7 @@ def bent(S: ti.template(), k, first_row, ny, change, H0):
 
 @ti.func
 def give_film(S: ti.template(), Y: ti.template(), G: ti.template(), j, x, H0):
-    """H of pair j from the deflection in the rows at x."""
+    """Write the film H of pair j from the deflection in the rows at x."""
     first, second, n2 = pair(G, 0, j)
     ny = cells(G, 0)[1]
     for i in range(n2):
@@ -81,7 +84,7 @@ def give_film(S: ti.template(), Y: ti.template(), G: ti.template(), j, x, H0):
 @ti.func
 def work(S: ti.template(), Y: ti.template(), T: ti.template(), G: ti.template(), C: ti.template(), Q: ti.template(),
          odd: ti.template(), phase, j, w, H0):
-    """Job j of a phase, by worker w."""
+    """Do job j of a phase, as worker w."""
     if phase == THERE:
         take_pressure(S, Y, G, C, j, w)
     x = transformed(Y, T, Q, odd, C, 0, j, w, phase)
@@ -92,7 +95,7 @@ def work(S: ti.template(), Y: ti.template(), T: ti.template(), G: ti.template(),
 @ti.kernel
 def bend(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C: Numbers, Q: Passes, odd: ti.template(), H0: Flat,
          sync: task_pool.Sync, alone: ti.template()):
-    """H = undeformed gap + deflection by P + H0[0] of the finest level."""
+    """Compute H = undeformed gap + deflection by P + H0[0] on the finest level."""
     ti.loop_config(block_dim=1, serialize=alone)
     for w in range(ti.cast(sync[task_pool.COUNT], ti.i32)):
         ticket, stays = task_pool.take(sync), True
@@ -112,7 +115,7 @@ def bend(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C: Numb
 @ti.kernel
 def one_phase(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C: Numbers, Q: Passes, odd: ti.template(),
               H0: Flat, sync: task_pool.Sync, alone: ti.template()):
-    """The phase that `sync` stands at, a job a thread, and which one follows."""
+    """Do the phase of `sync`, one job per thread, and set the next one."""
     ti.loop_config(block_dim=1)
     for j in range(C[0, GROUPS if sync[task_pool.TICKET] == ACROSS else PAIRS]):
         work(S, Y, T, G, C, Q, odd, ti.cast(sync[task_pool.TICKET], ti.i32), j, j, H0[0])
@@ -121,7 +124,7 @@ def one_phase(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C:
 
 
 class Bending:
-    """Sets the film of `levels` (see :class:`Levels`)."""
+    """Computes the film of `levels` (see :class:`Levels`)."""
 
     def __init__(self, levels):
         grid, self.H0, self.team = levels.scene.grid, np.zeros(1), task_pool.Team(levels.fine)
@@ -141,6 +144,6 @@ class Bending:
         return shape, convolution.Layout([shape])
 
     def bend(self, H0):
-        """H from the pressure in the table and the rigid approach H0."""
+        """Compute H from the pressure in the table and the rigid approach H0."""
         self.H0[0] = H0
         self.team.run(self.launch)

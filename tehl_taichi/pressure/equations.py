@@ -11,9 +11,9 @@ from tehl_taichi.pressure.linear import transfer
 class Equations:
     """The equations of `film` on `levels`.
 
-    film: whose density and viscosity they hold for. Its values() are taken from pressure and film in the table, its slopes()
-    from the values; rows: a LawRows, where both are. :class:`tehl_taichi.pressure.isothermal.OneTemperature`, or a film
-    with temperatures.
+    film: supplies density and viscosity. Its values() follow from pressure and film in the table, its slopes() from the values;
+    rows: a LawRows with their rows. It is a :class:`tehl_taichi.pressure.isothermal.OneTemperature`, or a film with
+    temperatures.
     """
 
     def __init__(self, levels, film):
@@ -29,24 +29,26 @@ class Equations:
         self._replace = [v.launch(active_sets.replace_rows, v.S, v.J, v.G, v.blocks, touching) for touching in (0, 1)]
 
     def residual(self, H0):
-        """H, laws and R of the pressure in the table with the rigid approach H0."""
+        """Compute H, laws and R for the pressure in the table and the rigid approach H0."""
         self.levels.set_film(H0)
         self.film.values()
         self.evaluate()
 
     def linearise(self, kept=False, again=False):
-        """Slopes of the laws (kept: the existing ones), Jacobian rows and the diagonal of the finest level; needs
-        :meth:`residual`. again: after a Newton step of the same solve."""
+        """Compute slopes of the laws, Jacobian rows and the diagonal of the finest level; needs :meth:`residual`.
+
+        kept: reuse existing slopes; again: after a Newton step of the same solve.
+        """
         self.known[0] = again
         if not kept:
             self.film.slopes()
         self._rows()
 
     def linearise_coarse(self):
-        """Linearise on the coarser levels that solve, about the injected state and with its laws."""
+        """Linearise on the coarser levels of the line solver, about the injected state and with its laws."""
         self.inject()
         self._rows_coarse()
 
     def replace_rows(self, touching):
-        """Rows of dry nodes and (touching) of those in solid contact, on all levels, by their own equations."""
+        """Replace the rows of dry nodes and (touching) of nodes in solid contact on all levels."""
         self._replace[touching]()

@@ -1,10 +1,9 @@
-"""The pressure problem in two tables, row = field, column = a block of W nodes, levels one after another: S (double
-precision) holds the state and what decides when it is solved, J (of the precision of the scene) its linearisation and the
-linear solve.
+"""Fields of the pressure problem in two tables; row = field, column = a block of W nodes, levels one after another.
 
-Column k of a level = OFF + s (NX + 1) + i: i along x (rolling), block s holds the nodes j = W s ... W s + W - 1 along y,
-one per lane. Capital letters are dimensionless (X = x/a, P = p/p_H, H = h R'/a^2). Lanes beyond the last row are ghosts:
-MASK 0, dry for ever.
+S (double precision) holds the state and all that decides about convergence, J (in the precision of the scene) its linearisation
+and the linear solve. Column k of a level = OFF + s (NX + 1) + i: i along x (rolling), block s holds the nodes j = W s ... W s +
+W - 1 along y, one per lane. Capital letters are dimensionless (X = x/a, P = p/p_H, H = h R'/a^2). Lanes beyond the last row are
+ghosts: MASK 0, always dry.
 """
 
 import itertools
@@ -55,8 +54,8 @@ FILM_LAWS = (RHOC, QCP, SKEW, DSKEW)  # of a film with temperatures
 class LawRows:
     """Rows of the table with the law values of a film, for its equations.
 
-    couette: density that the Couette flow carries, slope: its derivative by P, skew: of both fluidities, or -1 where they are
-    one; follow: all that the coarser levels take over.
+    couette: density in the Couette flow; slope: its derivative by P; skew: ratio of both fluidities, or -1 if they are equal;
+    follow: all rows that the coarser levels need.
     """
 
     couette: int

@@ -1,8 +1,8 @@
-"""Poiseuille flow between two neighbouring nodes and its derivatives.
+"""Poiseuille flow between two neighbouring nodes, and its derivatives.
 
-Mobility of the face: log-mean of 1/eta, geometric mean of rho, and of H^3 the :func:`cube`; times what the shear law makes of
-it (:mod:`tehl_taichi.laws.sheared_flow`) under the stress that the gradient puts on the walls, that of each direction by
-itself, and the Newtonian stress of the sliding, that of the face's own viscosity and film.
+Mobility of the face: log-mean of 1/eta, geometric mean of rho, and of H^3 the :func:`cube`, times the factor of the shear law
+(:mod:`tehl_taichi.laws.sheared_flow`). That factor depends on the wall stress by the pressure gradient, for each direction
+separately, and on the Newtonian stress of sliding, with the face's own viscosity and film.
 """
 
 from tehl_taichi.engine.language import ti
@@ -43,8 +43,9 @@ class Slopes:
 
 @ti.dataclass
 class Wall:
-    """Scales of a level and a direction: Pa on both walls of a film H = 1 by a difference of P of 1, Pa of P = 1, the distance
-    of the nodes, and Pa of the sliding of oil at p = 0 in a film H = 1."""
+    """Scales of a level and a direction: wall stress (Pa) of a film H = 1 for a difference of P of 1; Pa of P = 1; distance of
+    the nodes; stress (Pa) of sliding oil at p = 0 in a film H = 1.
+    """
 
     stress: ti.f64
     p_H: ti.f64
@@ -66,7 +67,7 @@ class Face:
 
 @ti.func
 def log_mean(l0, l1, e0, e1):
-    """Logarithmic mean of 1/eta between two nodes, l = ln eta, e = exp(-l), and minus its derivatives by l0 and l1."""
+    """Logarithmic mean of 1/eta between two nodes (l = ln eta, e = exp(-l)), and minus its derivatives by l0 and l1."""
     d = l1 - l0
     near = ti.abs(d) < 1e-3
     safe = ti.select(near, V(1.0), d)
@@ -80,9 +81,9 @@ def cube(h0, h1):
 
     g^3 ((1 - s)^2 + 4 s^3).
 
-    The first term is exact where the flux is constant and H linear between the nodes (int dX/H^2 and int dX/H^3 of them). The
-    second lifts it to the arithmetic mean, g^3 (1 + 3 s), where the grid does not resolve the gap: without it nothing holds
-    back what the Couette part takes in there, and there may be no solution. (s = 1/4: one film three times the other.)
+    The first term is exact for a constant flux and linear H between the nodes (int dX/H^2 and int dX/H^3). The second raises it
+    to the arithmetic mean, g^3 (1 + 3 s), if the grid does not resolve the gap: without it nothing limits the inflow by the
+    Couette part there, and a solution may not exist. (s = 1/4: one film three times the other.)
     """
     g, e = 0.5 * (h0 + h1), (h1 - h0) / (h0 + h1)
     s = e * e
@@ -103,7 +104,7 @@ def neighbour_row(S: ti.template(), row: ti.template(), k, n2, up: ti.template()
 
 @ti.func
 def node(S: ti.template(), k, n2, up: ti.template(), skew: ti.template()):
-    """The FlowNode at row j + up; skew: its row, or -1 of a film of one viscosity."""
+    """The FlowNode at row j + up; skew: its row, or -1 for a film with one viscosity."""
     f = V(1.0)
     if ti.static(skew >= 0):
         f = neighbour_row(S, skew, k, n2, up)
@@ -119,7 +120,7 @@ def mobility(a):
 
 @ti.func
 def flux(a, b):
-    """Poiseuille flux between the Nodes a and b, times the distance."""
+    """Poiseuille flux between the nodes a and b, times their distance."""
     return a.root * b.root * cube(a.gap, b.gap)[0] * log_mean(a.le, b.le, a.ie, b.ie)[0] * (b.p - a.p)
 
 
@@ -137,7 +138,7 @@ def wall_y(G: ti.template(), l):
 
 @ti.func
 def strain(a, b, mean, wall):
-    """Values at the face, Pa: stress on the walls, pressure, Newtonian stress of the sliding (mean: of 1/eta); and the skew."""
+    """Values at the face, Pa: wall stress, pressure, Newtonian stress of sliding (mean: of 1/eta); and the skew."""
     film, skew = 0.5 * (a.gap + b.gap), 0.5 * (a.skew + b.skew)
     sliding = ti.min(wall.shear * skew / ti.max(film * mean, SMALLEST), LARGEST)
     return wall.stress * film * ti.abs(b.p - a.p), 0.5 * wall.p_H * (a.p + b.p), sliding, skew
@@ -145,7 +146,7 @@ def strain(a, b, mean, wall):
 
 @ti.dataclass
 class LawFlow:
-    """Flow by the shear law over that of Newtonian oil, and its derivatives by the logarithms of both stresses and by p."""
+    """Flow by the shear law relative to Newtonian oil, and its derivatives by the logarithms of both stresses and by p."""
 
     part: V
     strained: V
@@ -166,10 +167,13 @@ def law_flows(both: ti.template()):
 
 @ti.func
 def yielding(rheology: ti.template(), stress, p, sliding, skew, wall, along: ti.template()):
-    """Effect of the shear law on the flow along the sliding, or across it: the part that Newton's method takes whole, and the
-    steep rest. A film with temperatures feels a gradient as one of the viscosity that slides would feel `skew` of it: so that
-    what slips carries at most u_s/2. Where walls carry all, on the way to a start, oil flows as it does across the sliding:
-    along it frozen oil, whose slip the walls do not end, would heap up."""
+    """Effect of the shear law on the flow along the sliding, or across it: (smooth part, which Newton's method uses fully;
+    steep rest).
+
+    In a thermal film a gradient acts on the sliding viscosity divided by `skew`, so that the slip carries at most u_s/2. On the
+    way to a start, while walls carry any stress, oil flows along the sliding as across it; otherwise frozen oil, whose slip the
+    walls do not limit, would accumulate.
+    """
     smooth, steep = no_flow(), no_flow()
     if ti.static(not along):
         smooth, steep = law_flows(either(rheology, False, stress * skew, stress, sliding, p))
@@ -182,10 +186,10 @@ def yielding(rheology: ti.template(), stress, p, sliding, skew, wall, along: ti.
 
 @ti.func
 def easing(over, power: ti.template()):
-    """Where walls carry ~ stress^power, from `over` = 1 on it is in proportion to the stress, with the slope it has there.
+    """Factors that continue a wall flow ~ stress^power in proportion to the stress beyond `over` = 1, with continuous slope.
 
-    By the law alone a front that is a tenth too steep carries forty times too much, and Newton steps take a fortieth off it.
-    Returns what this makes of what they carry as a factor, of its derivatives, and of it by the logarithm of the bound.
+    By the law alone a front that is 10 % too steep carries forty times too much, and Newton steps reduce it by a fortieth.
+    Returns the factors of the flow, of its derivatives, and of its derivative by the logarithm of the bound.
     """
     share, own, by_film = V(1.0), V(1.0), V(0.0)
     if over.max() > 1.0:
@@ -197,7 +201,7 @@ def easing(over, power: ti.template()):
 
 @ti.func
 def eased(a, b, wall, q, power: ti.template()):
-    """The :func:`easing` of what walls carry beyond what the law lets through smoothly."""
+    """The :func:`easing` of the wall flow beyond the smooth part."""
     share, own, by_film = V(1.0), V(1.0), V(0.0)
     if ti.static(power > 1.0):
         over = ti.max(ti.abs(q) / (CARRIED * wall.distance * 0.5 * (a.gap + b.gap)), 1.0)
@@ -207,7 +211,7 @@ def eased(a, b, wall, q, power: ti.template()):
 
 @ti.func
 def driven(a, b, rheology: ti.template(), wall, along: ti.template()):
-    """The :func:`flux` of oil with a shear law."""
+    """Poiseuille :func:`flux` of oil with a shear law."""
     out = flux(a, b)
     if ti.static(rheology.thins):
         stress, p, sliding, skew = strain(a, b, log_mean(a.le, b.le, a.ie, b.ie)[0], wall)
@@ -236,7 +240,7 @@ def net_driven_y(S: ti.template(), k, n2, up, down, skew: ti.template(), rheolog
 
 @ti.dataclass
 class Yield:
-    """Flow by a shear law over that of Newtonian oil, and its derivatives."""
+    """Flow by a shear law relative to Newtonian oil, and its derivatives."""
 
     part: V  # the flux over that of Newtonian oil, by the mobility
     along: V  # and by the difference of P
@@ -248,7 +252,7 @@ class Yield:
 
 @ti.func
 def yield_of(a, b, mean, eps, rheology: ti.template(), wall, along: ti.template()):
-    """The Yield of a face of the mobility eps, but for what it is multiplied by: the difference g of P (in by_p to by_skew)."""
+    """The Yield of a face of mobility eps, before multiplication by the difference g of P (in by_p to by_skew)."""
     out = Yield(part=V(1.0), along=V(1.0), by_p=V(0.0), by_h=V(0.0), by_le=V(0.0), by_skew=V(0.0))
     if ti.static(rheology.thins):
         stress, p, sliding, skew = strain(a, b, mean, wall)
@@ -264,7 +268,7 @@ def yield_of(a, b, mean, eps, rheology: ti.template(), wall, along: ti.template(
 
 @ti.func
 def bent(y, line, eps, g, rheology: ti.template(), along: ti.template()):
-    """The Yield with the :func:`share` of its bend: along the sliding walls switch, across it they do not."""
+    """The Yield with the :func:`share` of its bend: along the sliding the walls switch, across it they do not."""
     if ti.static(rheology.thins and along):
         bend = y.along - y.part
         kept = share(line, eps * g * y.part, g, bend)
@@ -275,7 +279,7 @@ def bent(y, line, eps, g, rheology: ti.template(), along: ti.template()):
 
 @ti.func
 def linear_face(a, da, b, db, line, rheology: ti.template(), wall, x: ti.template()):
-    """The Face between the Nodes a and b with their Slopes; line: its last Line; x: whether it lies along the sliding."""
+    """The Face between the nodes a and b with their Slopes; line: its last Line; x: it lies along the sliding."""
     mean, mean_0, mean_1 = log_mean(a.le, b.le, a.ie, b.ie)
     c, c0, c1 = cube(a.gap, b.gap)
     g, r, m = b.p - a.p, a.root * b.root, a.root * b.root * c
@@ -290,7 +294,7 @@ def linear_face(a, da, b, db, line, rheology: ti.template(), wall, x: ti.templat
 
 @ti.func
 def slopes(S: ti.template(), k, n2, up: ti.template(), skew: ti.template()):
-    """The Slopes at row j + up; skew: as in :func:`node`, its slope is in the row behind."""
+    """The Slopes at row j + up; skew: as in :func:`node`; its slope is in the next row."""
     f = V(0.0)
     if ti.static(skew >= 0):
         f = neighbour_row(S, skew + 1, k, n2, up)
@@ -299,7 +303,7 @@ def slopes(S: ti.template(), k, n2, up: ti.template(), skew: ti.template()):
 
 @ti.func
 def face_x(S: ti.template(), k, known, skew: ti.template(), rheology: ti.template(), wall: ti.template()):
-    """The Face to the right of k, its Line kept for the next linearisation; known: whether there is one of this solve."""
+    """The Face to the right of k; its Line is kept for the next linearisation. known: there is one of this solve."""
     line = unknown()
     if ti.static(rheology.thins):
         line = Line(base=S[BASE, k], rise=S[RISE, k], known=known)

@@ -9,7 +9,7 @@ from tehl_taichi.pressure.fluxes import flux, flux_x, mobility, node
 
 @ti.func
 def along_x(S: ti.template(), at: ti.template()):
-    """Differences of P behind and ahead; in the border columns twice the one that exists."""
+    """Differences of P behind and ahead; in the border columns twice the existing one."""
     behind, ahead = S[P, at.k - ti.min(at.i, 1)], S[P, at.k + ti.min(at.nx - at.i, 1)]
     here = S[P, at.k]
     return ti.select(at.i > 0, here - behind, ahead - here), ti.select(at.i < at.nx, ahead - here, here - behind)
@@ -17,7 +17,7 @@ def along_x(S: ti.template(), at: ti.template()):
 
 @ti.func
 def along_y(S: ti.template(), at: ti.template()):
-    """Gradient across; none in the first and the last row: a plane of symmetry, and the edge where nothing changes any more."""
+    """Differences along y; zero beyond the first row (plane of symmetry) and the last row (constant edge)."""
     here, n2 = S[P, at.k], at.nx + 1
     below_it, above_it = here - below(S, P, at.k, n2), above(S, P, at.k, n2) - here
     for u in ti.static(range(W)):
@@ -36,13 +36,13 @@ def central_gradient(S: ti.template(), G: ti.template(), at: ti.template()):
 
 @ti.func
 def limited_gradient(S: ti.template(), G: ti.template(), at: ti.template()):
-    """Limited gradient for velocities and heat (central ones heat the cavitation edge by hundreds of K); 0 where P = 0.
+    """Limited gradient for velocities and heat (central ones heat the cavitation edge by hundreds of K); 0 if P = 0.
 
-    At most what drives the fluxes of the Reynolds equation through oil as it is at the node: where thin oil meets thick, nearly
-    all of the difference is needed in the thick one. Taken for both, a fall of 1 GPa within a cell heats the hot band of a cold
-    film at the outlet by 100 K in a step: columns without a solution. Gear at SRR -0.5, central film on 128 / 256 / 512 / 1024
-    columns: with this bound 0.3819, 0.3827, 0.3829, 0.3829 um, without 0.3808, 0.3823, 0.3827, 0.3827; with twice the bound
-    0.3810, 0.3824, 0.3828, 0.3829, and the gear at 20 deg C does not start.
+    It is at most the gradient that drives the fluxes of the Reynolds equation with the node's own viscosity. Between thin and
+    thick oil nearly the whole difference is needed in the thick one; if it acted in both, a fall of 1 GPa within a cell would
+    heat the hot band of a cold film at the outlet by 100 K in a step, and columns would have no solution. Gear at SRR -0.5,
+    central film on 128 / 256 / 512 / 1024 columns: with this bound 0.3819, 0.3827, 0.3829, 0.3829 um, without 0.3808, 0.3823,
+    0.3827, 0.3827; with twice the bound 0.3810, 0.3824, 0.3828, 0.3829, and the gear at 20 deg C does not start.
     """
     y, wet, driving = V(0.0), S[P, at.k] > 0.0, driving_x(S, at)
     x = within(limited(*along_x(S, at)), -driving, driving) / G[0, DX]
@@ -54,7 +54,7 @@ def limited_gradient(S: ti.template(), G: ti.template(), at: ti.template()):
 
 @ti.func
 def driving_x(S: ti.template(), at: ti.template()):
-    """Difference of P that drives the mean of the fluxes to both neighbours through oil as it is at the node."""
+    """Difference of P that drives the mean flux to both neighbours, with the viscosity of the node."""
     here = node(S, at.k, 0, 0, -1)
     behind, ahead = flux_x(S, at.k - ti.min(at.i, 1)), flux_x(S, at.k - ti.max(at.i - at.nx + 1, 0))
     return 0.5 * (behind + ahead) / mobility(here)
@@ -62,7 +62,7 @@ def driving_x(S: ti.template(), at: ti.template()):
 
 @ti.func
 def driving_y(S: ti.template(), at: ti.template()):
-    """Driving gradient across."""
+    """Driving difference along y."""
     n2 = at.nx + 1
     here = node(S, at.k, n2, 0, -1)
     return 0.5 * (flux(node(S, at.k, n2, -1, -1), here) + flux(here, node(S, at.k, n2, 1, -1))) / mobility(here)
@@ -70,7 +70,9 @@ def driving_y(S: ti.template(), at: ti.template()):
 
 @ti.func
 def limited(a, b):
-    """Central difference of two one-sided ones, at most twice the smaller, 0 where they differ in sign (van Leer 1977). His
-    harmonic mean would be wrong by a quarter beside every plane of symmetry."""
+    """Central difference from two one-sided ones, at most twice the smaller, 0 for different signs (van Leer 1977).
+
+    His harmonic mean would be wrong by a quarter beside every plane of symmetry.
+    """
     size = ti.min(2.0 * ti.min(ti.abs(a), ti.abs(b)), 0.5 * ti.abs(a + b))
     return ti.select(a * b > 0.0, ti.select(a > 0.0, size, -size), V(0.0))

@@ -1,4 +1,4 @@
-"""The grids of one contact problem: a grid of nx x ny cells and its coarser ones, each of every second node."""
+"""Grids of one contact problem: a grid of nx x ny cells and its coarser ones, each of every second node."""
 
 import numpy as np
 
@@ -15,8 +15,8 @@ PAD = 4  # columns in front of the first and behind the last level that stencils
 class Grids:
     """Places, spacings and blocks of all levels, the finest first; dimensionless.
 
-    description: the grid of a scene; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional); full: from -y_max
-    instead of from the plane of symmetry (the lower edge of a line contact is then a mirror far away); coarsest: cells along x
+    description: the grid of a scene; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional); full: the domain begins
+    at -y_max, not at the plane of symmetry (the lower edge of a line contact is then a distant mirror); coarsest: cells along x
     below which no coarser grid is made, in two dimensions.
     """
 
@@ -58,16 +58,16 @@ class Grids:
         return np.vstack([inner, 0.5 * (inner + strip) if self.line else inner])
 
     def deflection_key(self, l):
-        """Values that the deflection of level l depends on: cells, spacings, compliance, line, mirrored."""
+        """Values on which the deflection of level l depends: cells, spacings, compliance, line, mirrored."""
         return (*self.grid(l), self.scales.compliance, self.line, self.mirrored)
 
 
 def load_weights(grids):
     """Weights w (ny+1, nx+1) such that sum(w P) is the load (model.md section 4, Hertz units).
 
-    Line: the mean over y (trapezoid over the stored rows) of int P dX = pi/2; point: the double integral, both halves, without
-    the sides, whose pressure is given and bends nothing. Along x of whole cells around the nodes, that of the border, too: its
-    pressure bends the bodies as a whole cell.
+    Line: mean over y (trapezoid over the stored rows) of int P dX = pi/2. Point: double integral over both halves, without the
+    sides, whose pressure is given and deflects nothing. Along x every node counts with a whole cell, also at the border,
+    because its pressure deflects the bodies as a whole cell.
     """
     w_y = np.full((grids.ny + 1, 1), grids.dx)
     if grids.ny:
@@ -82,7 +82,7 @@ def load_weights(grids):
 
 
 def coarsen(nx, ny, coarsest=COARSEST_2D):
-    """Sizes of the grids from (nx, ny) down."""
+    """Sizes of the grids from (nx, ny) down to the coarsest."""
     sizes = [(nx, ny)]
     while _can_halve(*sizes[-1], coarsest):
         sizes.append((sizes[-1][0] // 2, sizes[-1][1] // 2))
@@ -90,10 +90,10 @@ def coarsen(nx, ny, coarsest=COARSEST_2D):
 
 
 def solved_by(sizes):
-    """Levels that are solved as a dense matrix (the coarsest, if it is small) and by lines: of the others every second one.
+    """([levels solved as a dense matrix: the coarsest, if it is small], [levels solved by lines: every second of the others]).
 
-    Krylov iterations a step, gear on 128 / 256 / 512 columns: with lines on all levels 16.7 / 18.6 / 19.5, on every second one
-    17.2 / 18.2 / 20.3, at 0.9 of the time of an iteration and 0.8 of that of a linearisation.
+    Krylov iterations per step, gear on 128 / 256 / 512 columns: with lines on all levels 16.7 / 18.6 / 19.5, on every second
+    one 17.2 / 18.2 / 20.3, with 0.9 of the time of an iteration and 0.8 of that of a linearisation.
     """
     (nx, ny), last = sizes[-1], len(sizes) - 1
     if last > 0 and (nx + 1) * (ny + 1) <= DENSE_LIMIT:
@@ -113,5 +113,5 @@ def columns(nx, ny):
 
 
 def table_columns(sizes):
-    """Columns of grids of these sizes, with the columns in front and behind that stencils touch."""
+    """Columns of grids of these sizes, with the margins at both ends that stencils access."""
     return sum(columns(*size) for size in sizes) + 2 * (PAD + sizes[0][0] + 1)

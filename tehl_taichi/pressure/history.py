@@ -1,4 +1,4 @@
-"""Past states as rows of a table of the finest grid, and what was moved along x since."""
+"""Past states as rows of a table of the finest grid, and their displacement along x."""
 
 import functools
 import math
@@ -18,8 +18,9 @@ WHOLE = 1e-9  # cells
 
 
 def shift(cells):
-    """(back, weights) of a field that is moved by `cells` towards +x: at node i the sum of weights[k] times the value at i -
-    back + k. Whole cells have a single weight, 1."""
+    """(back, weights) of a field moved by `cells` towards +x: node i gets the sum of weights[k] times the value at i - back +
+    k. Whole cells have a single weight, 1.
+    """
     whole = math.floor(cells + WHOLE)
     part = cells - whole
     return whole + 3, _weights(0.0 if part < WHOLE else part)
@@ -32,14 +33,14 @@ def _weights(part):
 
 
 def carried(q, cells):
-    """q (..., nx+1) moved by `cells` towards +x, outside of kernels; what comes in is as at the border."""
+    """Field q (..., nx+1) moved by `cells` towards +x, outside of kernels; inflow has the border values."""
     back, weights = shift(cells)
     at, last = np.arange(q.shape[-1]), q.shape[-1] - 1
     return sum(weight * np.take(q, np.clip(at - back + k, 0, last), -1) for k, weight in enumerate(weights) if weight)
 
 
 def set_way(way, cells, weight=1.0):
-    """A row (WAY) of the ways that kernels go: :func:`shift` by so many cells, times a weight."""
+    """Set a row (WAY) of the table of displacements for kernels: :func:`shift` by `cells`, times a weight."""
     way[BACK], weights = shift(cells)
     way[:REACH] = np.multiply(weights, weight)
     way[BEGIN:] = (3, 4) if 1.0 in weights else (0, REACH)
@@ -47,19 +48,19 @@ def set_way(way, cells, weight=1.0):
 
 @ti.func
 def nodes(ways: ti.template(), way):
-    """The nodes of an interpolation: first and behind the last, one where features move by whole cells."""
+    """(first node, end) of an interpolation; one node if features move by whole cells."""
     return int(ways[way, BEGIN]), int(ways[way, END])
 
 
 @ti.func
 def source(i, nx, ways: ti.template(), way, m):
-    """Column that the node m of an interpolation is at; what comes in is as at the border."""
+    """Column of node m of an interpolation; inflow has the border values."""
     return ti.min(ti.max(i - int(ways[way, BACK]) + m, 0), nx)
 
 
 @ti.func
 def moved(F: ti.template(), row, first, i, nx, ways: ti.template(), way, each, n):
-    """Number n of `each` in column i of a block that begins with column `first`, moved by way number `way`."""
+    """Number n of `each` in column i of a block with first column `first`, moved by displacement number `way`."""
     out = L(F, 0.0)
     begin, end = nodes(ways, way)
     for m in range(begin, end):
@@ -68,7 +69,7 @@ def moved(F: ti.template(), row, first, i, nx, ways: ti.template(), way, each, n
 
 
 class StateHistory:
-    """A table of so many rows on the finest grid of `levels`, column s (NX + 1) + i; not cleared."""
+    """Table of some rows on the finest grid of `levels`, column s (NX + 1) + i; not cleared."""
 
     def __init__(self, levels, rows, precision="f64"):
         self.levels, self.carriers = levels, Carriers()

@@ -1,8 +1,7 @@
 """Exact influence coefficients of the normal deflection for cell-constant pressure, dimensionless (Hertz units).
 
-Film change W = C int P / r dX dY with the compliance C of the scales (1/(2 pi) for a line, 2/pi^2 for a circular contact),
-and for the y-invariant part of a line contact W = -(1/pi) int P ln|X - X'| dX' (Johnson, Contact Mechanics, sections 2.2
-and 3.2).
+Film change W = C int P / r dX dY with the compliance C of the scales (1/(2 pi) for a line, 2/pi^2 for a circular contact); for
+the y-invariant part of a line contact W = -(1/pi) int P ln|X - X'| dX' (Johnson, Contact Mechanics, sections 2.2 and 3.2).
 """
 
 import functools
@@ -29,8 +28,11 @@ def strip(nx, dx):
 
 @functools.lru_cache(maxsize=4)  # the grids of a steady start end in the same one
 def matrix(nx, ny, dx, dy, compliance, line, mirrored=True):
-    """Deflection of a small grid as a matrix (nodes, nodes), rows along x; line: the pressure of the last row continues beyond
-    it; mirrored: rows y < 0 are the mirror image of the others. The first column of the grid has no pressure."""
+    """Deflection of a small grid as a matrix (nodes, nodes), rows along x.
+
+    line: the pressure of the last row continues beyond it; mirrored: rows y < 0 mirror the others. The first column of the grid
+    has no pressure.
+    """
     i, j = np.arange(nx + 1), np.arange(ny + 1)
     along = np.abs(i[:, None] - i)
     K = np.zeros((ny + 1, nx + 1, ny + 1, nx + 1))
@@ -49,8 +51,8 @@ def matrix(nx, ny, dx, dy, compliance, line, mirrored=True):
 def symbol(nx_period, ny, dx, dy, compliance, aliases=2):
     """Fourier symbol of the deflection of a periodic row of cells: shape (ny + 1, nx_period // 2 + 1).
 
-    Cosine modes of period 2 ny in y (ny = 0: one-dimensional), full aliasing sum of 2 pi C sinc sinc / |k|; the mean,
-    which has no finite value, is given twice the lowest mode along x.
+    Cosine modes of period 2 ny in y (ny = 0: one-dimensional), full aliasing sum of 2 pi C sinc sinc / |k|. The mean has no
+    finite value; it is set to twice the lowest mode along x.
     """
     kx = 2 * np.pi * np.arange(nx_period // 2 + 1) / (nx_period * dx)
     ky = np.pi * np.arange(ny + 1) / (max(ny, 1) * dy)

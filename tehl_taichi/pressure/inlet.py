@@ -1,10 +1,9 @@
-"""The pressure of the oil beyond the border of the grid, where a flooded inlet continues for ever.
+"""Pressure of the oil beyond the border of the grid, for an inlet that is flooded without end.
 
-Far before the contact bodies hardly bend under it, so the Reynolds equation can be integrated: with the reduced pressure
-q(p) = int_0^p eta_0/eta dp, a line has q = 12 eta_0 u_m int (h - h*)/h^3 dx beyond the border, h* what the film carries (its
-flow over u_m); a point the value for two rigid paraboloids, q = 12 eta_0 u_m |x|/((3 + 2 R_x/R_y) h^2), exact for thick gaps,
-with the film at the node itself and half of what a line's integral differs from it. eta_0: the viscosity of the column at the
-border.
+Far before the contact this pressure hardly deflects the bodies, so the Reynolds equation can be integrated. With the reduced
+pressure q(p) = int_0^p eta_0/eta dp, a line has q = 12 eta_0 u_m int (h - h*)/h^3 dx beyond the border, where h* is the flow
+over u_m. A point has the value of two rigid paraboloids, q = 12 eta_0 u_m |x|/((3 + 2 R_x/R_y) h^2), exact for thick gaps, with
+the film at the node and half the correction of a line's integral. eta_0: viscosity of the column at the border.
 """
 
 import functools
@@ -25,7 +24,7 @@ LEAST = 0.5  # of a miss that a move makes up for: thick films answer a border b
 
 @functools.lru_cache(maxsize=16)
 def reduced(oil, Gamma):
-    """(p, q) in Pa: the reduced pressure of an oil at Gamma deg C; between its points 1/eta is exponential."""
+    """(p, q) in Pa: reduced pressure of an oil at Gamma deg C; between its points 1/eta is exponential."""
     ln = np.array([ln_eta(oil, float(p), Gamma) for p in PRESSURES])
     fall = np.diff(ln)
     near = np.abs(fall) < 1e-6
@@ -34,8 +33,10 @@ def reduced(oil, Gamma):
 
 
 def far(X, H, log):
-    """(places, films, weights of an integral) beyond X, from the film H there; log: 1 beside a line contact, whose bodies bend
-    by a logarithm, 0 beside a point."""
+    """(places, films, integration weights) beyond X, from the film H there.
+
+    log: 1 for a line contact, whose bodies deflect logarithmically, 0 for a point.
+    """
     return X / T, H + 0.5 * X**2 * (1 / T**2 - 1) + 0.5 * log * np.log(T), WEIGHTS * abs(X) / T**2
 
 
@@ -46,8 +47,10 @@ def integral(X, H, carried, log):
 
 
 class Inlet:
-    """Pressure of the oil beyond the border of the grid of `levels`; its border nodes: the first column, and before the
-    contact (X < 0) the sides of a point contact."""
+    """Pressure of the oil beyond the border of the grid of `levels`.
+
+    Border nodes: the first column, and before the contact (X < 0) the sides of a point contact.
+    """
 
     def __init__(self, levels):
         self.levels, v = levels, levels
@@ -61,26 +64,27 @@ class Inlet:
         self.part, self.before = 1.0, None  # of the last move, and the miss before it
 
     def now(self):
-        """Reduced pressure (Pa) at the border nodes of the table."""
+        """Reduced pressure (Pa) at the border nodes in the table."""
         return np.interp(self.levels.get(fields.P)[self.border] * self.levels.scales.p_H, self.p, self.q)
 
     def put(self, q):
-        """Give the border nodes this reduced pressure, Pa."""
+        """Set this reduced pressure (Pa) at the border nodes."""
         P = self.levels.get(fields.P)
         P[self.border] = np.interp(np.minimum(q, MOST * self.q[-1]), self.q, self.p) / self.levels.scales.p_H
         self.levels.put(fields.P, P)
 
     def follow(self):
-        """Move the border towards the pressure of the oil beyond it, by a part of the way that allows for what the film
-        answered to the last move (Aitken). Returns whether it had to."""
+        """Move the border pressure towards that of the oil beyond it, by a part that accounts for the film's response to the
+        last move (Aitken). Returns whether it moved.
+        """
         return self._move(self._aitken)
 
     def move(self, part):
-        """Move the border by this part of the way."""
+        """Move the border pressure by this part of its deviation."""
         return self._move(lambda miss: part)
 
     def _move(self, part_of):
-        """Move the border by part_of(what it misses) of the way, unless it agrees."""
+        """Move the border pressure by part_of(its deviation), unless it agrees."""
         miss = self.miss()
         moved = not self._small(miss)
         if moved:
@@ -97,7 +101,7 @@ class Inlet:
         return float(np.clip(-self.part * (self.before @ step) / (step @ step), LEAST, 1.0))
 
     def miss(self):
-        """Reduced pressure (Pa) that the border lacks."""
+        """Deviation (Pa) of the reduced pressure at the border from that of the oil beyond it."""
         return np.minimum(self.beyond(), MOST * self.q[-1]) - self.now()
 
     def agrees(self):
@@ -108,18 +112,18 @@ class Inlet:
         return bool(np.abs(miss).max() <= AGREES * self.q[-1])
 
     def begin(self, gap):
-        """Give the border what it has beside a film by formula; gap: of the dry contact."""
+        """Set the border pressure for a film by formula; gap: of the dry contact."""
         film = central_film(self.levels.scene) / self.levels.scales.h
         self.part, self.before = 1.0, None
         self.put(self.without_heat(gap + film, film))
 
     def beyond(self):
-        """Reduced pressure (Pa) that the oil beyond the border has there, by the film in the table."""
+        """Reduced pressure (Pa) of the oil beyond the border, for the film in the table."""
         H = self.levels.get(fields.H)
         return self.without_heat(H, self.carried(H)) * self.warmth()
 
     def without_heat(self, H, carried):
-        """Pressure of the border by the film H, that carries so much, of oil as it comes in."""
+        """Border pressure for the film H with flow `carried`, for oil at the inlet viscosity."""
         v = self.levels
         if v.line:
             shape = np.full(v.ny + 1, integral(v.X[0], H[v.middle, 0], carried, 1.0))
@@ -129,18 +133,18 @@ class Inlet:
         return np.maximum(shape, 0.0) * v.scales.p_H / v.numbers.inv_lambda
 
     def carried(self, H):
-        """rho H that the film carries at X = 0, over the density of the inlet."""
+        """Flow rho H at X = 0, relative to the density at the inlet."""
         v = self.levels
         return float(np.interp(0.0, v.X, (H * v.get(fields.RHO))[v.middle]))
 
     def _kappa(self, H, carried):
-        """Mean of 1 and what the integral along y = 0 is over that of a gap that grows like X^2."""
+        """Correction of a point contact: mean of 1 and the ratio of the integral along y = 0 to that of a gap ~ X^2."""
         v = self.levels
         X, H_0 = v.X[0], H[v.middle, 0]
         return 0.5 + 1.5 * integral(X, H_0, carried, 0.0) * H_0**2 / abs(X)
 
     def warmth(self):
-        """Viscosity at the border nodes over that of the oil of the inlet at their pressure."""
+        """Viscosity at the border nodes relative to that of inlet oil at their pressure."""
         v = self.levels
         p = v.get(fields.P)[self.border] * v.scales.p_H
         cold = ln_eta(v.scene.oil, p, v.scene.operation.temperature) - v.conditions["ln_eta0"]

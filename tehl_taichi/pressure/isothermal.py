@@ -1,14 +1,14 @@
-"""A film of one temperature, that of the inlet."""
+"""An isothermal film at the inlet temperature."""
 
 from tehl_taichi.pressure import fields, isothermal_laws, tractions
 from tehl_taichi.pressure.levels import HEAVY
 
 
 class OneTemperature:
-    """The film of an isothermal problem on `levels`, see :class:`tehl_taichi.pressure.equations.Equations`.
+    """Film of an isothermal problem on `levels`, see :class:`tehl_taichi.pressure.equations.Equations`.
 
-    values(), slopes(): density and viscosity of the film in the table, and their derivatives, into the table; rows: which.
-    Where temperatures follow, the rows are theirs: equations of either film are then the same kernels, traced and loaded once.
+    values(), slopes(): write density and viscosity of the film in the table, and their derivatives, to `rows` of the table. In
+    thermal scenes the rows are those of the thermal film, so that both films share their kernels.
     """
 
     def __init__(self, levels):

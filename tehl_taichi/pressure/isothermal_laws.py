@@ -1,6 +1,6 @@
-"""Density, viscosity and mobility of a film that has one temperature.
+"""Density, viscosity and mobility of an isothermal film.
 
-Without a shear law: what that makes of the flow follows at the faces (:mod:`tehl_taichi.pressure.fluxes`).
+Without the shear law: its effect on the flow is computed at the faces (:mod:`tehl_taichi.pressure.fluxes`).
 """
 
 from tehl_taichi.engine.elementary import exp, maximum
@@ -31,8 +31,9 @@ def store_slopes(S: ti.template(), k, rho, le, rate):
 @ti.kernel
 def laws(S: ti.template(), G: Table, oil: ti.template(), conditions: Flat, rows: ti.template(), slopes: ti.template(),
          alone: ti.template()):
-    """Density, viscosity and mobility on the finest level; with slopes = 1 their derivatives, which need the values. rows: the
-    LawRows that the equations read."""
+    """Compute density, viscosity and mobility on the finest level; with slopes = 1 their derivatives, which need the values.
+    rows: the LawRows that the equations read.
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):

@@ -1,4 +1,4 @@
-"""Numbers of each level for the kernels: one table, its columns by name in :mod:`tehl_taichi.pressure.fields`."""
+"""Numbers of each level for the kernels: one table; :mod:`tehl_taichi.pressure.fields` names its columns."""
 
 import numpy as np
 
@@ -7,9 +7,11 @@ from tehl_taichi.pressure.grids import PAD, columns
 
 
 class LevelNumbers:
-    """G[level, column] of `grids`: places and spacings, deflection nearby, film floor, all fixed; and what a solve may
-    change: the balance of the film (:meth:`slow_down`), its slip (:meth:`slip`), what strains its walls (:meth:`strain`) and
-    d/dT (:meth:`set_rate`). `conditions`: Record of the scene; floor: of the film, dimensionless.
+    """Table G[level, column] of `grids`.
+
+    Constant: places and spacings, deflection nearby, film floor. Set per solve: balance of the film (:meth:`slow_down`), its
+    slip (:meth:`slip`), wall shear by pressure gradients (:meth:`strain`), and d/dT (:meth:`set_rate`). `conditions`: Record of
+    the scene; floor: of the film, dimensionless.
     """
 
     def __init__(self, grids, conditions, floor):
@@ -30,26 +32,26 @@ class LevelNumbers:
         self.set_rate(0.0)
 
     def _set(self, l, numbers):
-        """Numbers of level l, by {column: number}."""
+        """Set numbers of level l, {column: number}."""
         for column, number in numbers.items():
             self.G[l, column] = number
 
     def slow_down(self, factor):
-        """Take the speed of the film's balance to be that of the scene over `factor`."""
+        """Set the speed in the film's balance to that of the scene over `factor`."""
         self.G[:, fields.ILAM] = factor * self.inv_lambda
 
     def slip(self, part):
-        """Take the slip that the shear law acts by to be this part of that of the scene; 0: a Newtonian film."""
+        """Set the slip in the shear law to this part of the scene's; 0: a Newtonian film."""
         self.G[:, fields.SHEAR] = part * self.shear
 
     def strain(self, part):
-        """Take the stress that the pressure puts on the walls to be this part of it, in the flow and in its heat; 0: walls that
-        carry all."""
+        """Set the wall stress by pressure gradients to this part of it, for flow and heat; 0: walls that carry any stress."""
         self.G[:, fields.WALL] = part * self.wall / self.G[:, fields.DX]
         self.conditions.set(strain=part)
 
     def set_rate(self, weight, frame=0.0):
-        """Weight of the newest level in d/dT, 1/T units (0: steady), scaled with dx on every level; frame: speed over u_m of
-        the frame in which it is taken."""
+        """Set the weight of the newest level in d/dT, 1/T units (0: steady), scaled with dx on every level; frame: speed of its
+        frame of reference over u_m.
+        """
         self.G[:, fields.CT] = weight * self.G[:, fields.DX]
         self.G[:, fields.FRAME] = frame

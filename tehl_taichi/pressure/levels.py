@@ -17,10 +17,9 @@ HEAVY = 4  # work of a column in the laws and in the linearisation, in units of 
 class Levels(Grids):
     """State table S, table of the linear problem J, numbers of the levels G and of the scene (conditions) on Grids.
 
-    scene: the description; scales, nx, ny, full, coarsest: see :class:`Grids`; domain: its extent, where that is not the
-    scene's. The fields of the finest grid are read and written as
-    arrays (ny+1, nx+1) with :meth:`get` and :meth:`put`. Vectors of the Krylov solver are flat arrays of `n` numbers of type
-    `linear` in the order of the table, ghosts included.
+    scene: the description; scales, nx, ny, full, coarsest: see :class:`Grids`; domain: its extent, if it differs from the
+    scene's. The fields of the finest grid are read and written as arrays (ny+1, nx+1) with :meth:`get` and :meth:`put`. Vectors
+    of the Krylov solver are flat arrays of `n` numbers of type `linear` in the order of the table, ghosts included.
     """
 
     def __init__(self, scene, scales, nx, ny, full=False, domain=None, coarsest=COARSEST_2D):
@@ -52,13 +51,13 @@ class Levels(Grids):
             self._clear_level(l)
 
     def _unknown_nodes(self):
-        """1 where the pressure is unknown (ny+1, nx+1), else 0."""
+        """Mask (ny+1, nx+1): 1 where the pressure is unknown, else 0."""
         inside = np.zeros((self.ny + 1, self.nx + 1))
         inside[0 if self.mirrored else 1 : int(self.G[0, fields.JN]), 1:-1] = 1.0
         return inside
 
     def _clear_level(self, l):
-        """Everything dry with a film of 1 and the diagonal 1, so that ghosts and borders stay finite."""
+        """Make level l dry with a film of 1 and diagonal 1, so that ghosts and borders stay finite."""
         nx, ny = self.sizes[l]
         ones = np.ones((ny + 1, nx + 1))
         carried = () if self.scene.isothermal else (fields.RHOC, fields.SKEW)
@@ -66,13 +65,13 @@ class Levels(Grids):
             self.put(row, ones, l)
 
     def _clear_ghosts(self, *rows):
-        """`put` repeats the last row in the ghosts; these fields must vanish there."""
+        """Set fields that must vanish in ghosts to 0; `put` repeats the last row there."""
         first, last = simd.W * (self.fine - 1), self.ny
         for row in rows:
             simd.clear_ghosts(self.S, self.G, row, last - first)
 
     def get(self, row, l=0):
-        """Field `row` of level l as a new array (ny+1, nx+1), column by column in memory."""
+        """Field `row` of level l as a new array (ny+1, nx+1), column-major."""
         return self._carry(simd.get, row, l).copy().T
 
     def put(self, row, values, l=0):
@@ -84,7 +83,7 @@ class Levels(Grids):
         return self._carry(balances.save, row).copy()
 
     def _carry(self, kernel, row, l=None, values=None):
-        """Launch a kernel between a field of level l (or in table order) and an array. Returns the array."""
+        """Launch a kernel that copies between a field of level l (or in table order) and an array. Returns the array."""
         shape, place = self.n, (row,)
         if l is not None:
             (nx, ny), place = self.sizes[l], (l, row)
@@ -93,16 +92,18 @@ class Levels(Grids):
                                     lambda array: self.launch(kernel, self.S, self.G, *place, array), values)
 
     def fill(self, kernel, count, *args):
-        """A new array (count, ny+1, nx+1), column by column in memory, that kernel(S, G, *args, array) fills, for the same
-        arguments every time."""
+        """New array (count, ny+1, nx+1), column-major, filled by kernel(S, G, *args, array); every call needs equal
+        arguments.
+        """
         shape = count, self.nx + 1, self.ny + 1
         array = self._carriers.carry(kernel, shape, lambda array: bind(kernel, self.S, self.G, *args, array))
         return array.copy().swapaxes(1, 2)
 
     def launch(self, kernel, *args, work=1):
-        """A launch of `kernel`, whose last argument is `alone`; work: of one column, in units of a copy.
+        """Launch of `kernel`, whose last argument is `alone`; work: per column, in units of a copy.
 
-        The same for the smaller grids of a start as for the finest: either way of a kernel takes time to trace.
+        `alone` is equal for the smaller grids of a start and the finest one, because each variant of a kernel takes time to
+        trace.
         """
         return bind(kernel, *args, runtime.alone(work * self.most_columns))
 
@@ -112,10 +113,10 @@ class Levels(Grids):
         return max(columns(self.nx, self.ny), columns(self.scene.grid.nx, self.scene.rows))
 
     def set_film(self, H0):
-        """H from the pressure in the table and the rigid approach H0."""
+        """Compute H from the pressure in the table and the rigid approach H0."""
         self.bending.bend(H0)
 
 
 def _final_columns(scene):
-    """Columns of the finest grid of the scene: the steady start takes its smaller tables from the same memory."""
+    """Columns of the finest grid of the scene; the steady start uses the same memory for its smaller tables."""
     return table_columns(coarsen(scene.grid.nx, scene.rows))

@@ -58,13 +58,13 @@ class SolveReport:
     converged: bool
 
     def after(self, others):
-        """This one, with the work of those before it."""
+        """This report, with the work of earlier ones added."""
         newton, cycles = (sum(getattr(one, name) for one in (self, *others)) for name in ("newton", "cycles"))
         return replace(self, newton=newton, cycles=cycles)
 
 
 def or_not_converged(solve):
-    """A solve that reports no convergence from a state so far off that its linearisation has no inverse."""
+    """Call solve(); return an unconverged SolveReport if its linearisation is singular (a state far from the solution)."""
 
     @functools.wraps(solve)
     def guarded(*args, **options):
@@ -77,9 +77,11 @@ def or_not_converged(solve):
 
 
 class PressureSolver:
-    """Solves one step of `film` on `levels` (see :class:`Levels`, :class:`Equations`); linear: class of its linear solver, made
-    for `levels` (:class:`tehl_taichi.pressure.linear.interface.LinearSolver`); carries_load: whether H0 follows from the load,
-    or is given."""
+    """Solves one step of `film` on `levels` (see :class:`Levels`, :class:`Equations`).
+
+    linear: class of its linear solver (:class:`tehl_taichi.pressure.linear.interface.LinearSolver`), made for `levels`;
+    carries_load: H0 follows from the load; otherwise it is given.
+    """
 
     def __init__(self, levels, film, most_rises=np.inf, linear=MultigridGmres, carries_load=True):
         self.levels, self.most_rises, self.carries_load = levels, most_rises, carries_load
@@ -107,15 +109,15 @@ class PressureSolver:
         return v.launch(reynolds.contact_right, v.S, v.J, v.G, self.b)  # 15 ms to make, which few scenes need
 
     def take(self, film):
-        """Density and viscosity are those of this film from now on."""
+        """Use density and viscosity of this film from now on."""
         self.equations = Equations(self.levels, film)
 
     def residual(self):
-        """H, laws and R of the state in the table."""
+        """Compute H, laws and R of the state in the table."""
         self.equations.residual(self.H0)
 
     def measure(self):
-        """Merit (rms of phi plus load error), load error and mass error; needs the diagonal.
+        """Return the merit (rms of phi plus load error), and set load error and mass error; needs the diagonal.
 
         Mass error: net outflow of the full-film region plus its storage, relative to the Couette flux through X = 0.
         """
@@ -128,8 +130,10 @@ class PressureSolver:
 
     @or_not_converged
     def solve(self, krylov_tolerance=None, tolerance=None, newton_max=None, enough=0.0):
-        """Newton iteration from the pressure in the table and H0; leaves the solution there; at the residual `enough` it
-        stops without convergence. Returns a SolveReport."""
+        """Newton iteration from the pressure in the table and H0; leaves the solution there. Returns a SolveReport.
+
+        At the residual `enough` it stops without convergence.
+        """
         numerics = self.levels.scene.numerics
         tolerance = tolerance or numerics.tolerance
         merit, cycles = self._begin(self.kept), 0
@@ -149,8 +153,10 @@ class PressureSolver:
 
     @or_not_converged
     def improve(self, keeps=False):
-        """One Newton step from a good guess, not checked where it is small: what follows checks, and keeps (if wanted) what is
-        dear to prepare and not much different there, see `RightHandSide.change`. Returns a SolveReport."""
+        """One Newton step from a good guess; a small one is not checked, because later steps check it. Returns a SolveReport.
+
+        keeps: reuse expensive data that hardly change, see `RightHandSide.change`.
+        """
         numerics, merit = self.levels.scene.numerics, self._begin()
         step, cycles = self._direction(FIRST_ROUND)
         self.change = float(np.abs(step[:-1]).max())
@@ -164,11 +170,11 @@ class PressureSolver:
         return SolveReport(merit, self.load_error, self.mass_error, 1, cycles, False)
 
     def holds(self):
-        """Whether the state in the table solves the equations as they are now."""
+        """Whether the state in the table solves the present equations."""
         return self._converged(self._begin(), self.levels.scene.numerics.tolerance)
 
     def _begin(self, kept=False):
-        """Linearise about the state in the table; kept: the state is near that of the last linear solve. Returns its merit."""
+        """Linearise about the state in the table; kept: it is near that of the last linear solve. Returns its merit."""
         self.residual()
         self.equations.linearise(kept and self.change < SAME_SLOPES)
         self.before, self.kept, self.rises = None, kept, 0
@@ -177,15 +183,16 @@ class PressureSolver:
         return self.measure()
 
     def _follow(self):
-        """Whether the border has moved after the film: the equations are others then."""
+        """Let the border follow the film. Returns whether it moved, which changes the equations."""
         moved = self.border is not None and self.border.follow()
         if moved:
             self.residual()
         return moved
 
     def _forcing(self, krylov_tolerance, merit, tolerance):
-        """Relative accuracy of the linear solve: what the Newton step is likely to gain, not much more than convergence
-        still needs."""
+        """Relative accuracy of the linear solve: the likely gain of the Newton step, but not much more than convergence
+        needs.
+        """
         mass = MASS_GAIN * self.levels.scene.numerics.mass_tolerance / max(self.mass_error, 1e-300)
         needed = FORCING * min(tolerance / max(merit, 1e-300), mass)
         likely = NONLINEAR * merit if self.before is None else GAIN * (merit / self.before) ** GAIN_POWER
@@ -216,16 +223,19 @@ class PressureSolver:
         return np.append(found.pressure * self.inside, self.levels.linear.type(found.approach)), found.iterations
 
     def _scale_mass(self, b):
-        """Scale the mass component like the sum of all rows, but at most to the norm of the rows: above it, a solve would
-        stop as soon as the mass is balanced, with the pressure hardly changed."""
+        """Scale the mass component like the sum of all rows, but at most to their norm.
+
+        A larger one would end a solve as soon as the mass is balanced, with the pressure hardly changed.
+        """
         self.mass_row *= np.sqrt(self.levels.unknowns) / self.couette
         defect = abs(float(self.mass_row @ b))
         if defect > 0:
             self.mass_row *= min(1.0, float(np.sqrt(b @ b)) / defect)
 
     def _advance(self, step, merit, first, tolerance):
-        """Damped update: halve until the merit falls (or, most_rises times, the change is small and the merit too). Returns
-        the merit, by the row scales of the last linearisation."""
+        """Damped update: halve the step until the merit falls (or, most_rises times, change and merit are small). Returns the
+        merit, with the row scales of the last linearisation.
+        """
         old_H0, t = self._keep(step), 1.0
         largest = float(np.abs(step[:-1]).max())
         while True:
@@ -240,13 +250,13 @@ class PressureSolver:
             t *= 0.5
 
     def _keep(self, step):
-        """Remember the pressure and the step from it. Returns H0."""
+        """Store the pressure and the step from it. Returns H0."""
         self._keep_pressure()
         np.copyto(self.step, step[:-1])
         return self.H0
 
     def _move(self, old_H0, step, t):
-        """Pressure and H0: the old ones plus t times the step, no pressure below 0."""
+        """Set pressure and H0 to the old ones plus t times the step, with no negative pressure."""
         self.part[0] = t
         self._move_pressure()
         self.H0 = old_H0 + t * float(step[-1])

@@ -12,7 +12,7 @@ THICK = 0.01
 
 
 def of(scene):
-    """"f32" or "f64": what the scene needs, or what suits it. Raises SceneError for f32 and a film too thin for it."""
+    """"f32" or "f64": the user's choice, or the suitable one. Raises SceneError for f32 and a film too thin for it."""
     requested = scene.numerics.precision
     if requested == "f32" and suited(scene) != "f32":
         h = central_film(scene)
@@ -23,5 +23,5 @@ def of(scene):
 
 
 def suited(scene):
-    """"f32" for thick films, else "f64"; the state and its residual are in double precision either way."""
+    """"f32" for thick films, else "f64"; the state and its residual are always in double precision."""
     return "f32" if central_film(scene) > THICK * Scales.of(scene).h else "f64"

@@ -53,7 +53,7 @@ from tehl_taichi.pressure.upwind import couette_weights
 
 @ti.func
 def carried(S: ti.template(), row: ti.template(), density: ti.template(), k, frame):
-    """Mass that the Couette flow of node k carries (`row`) in a frame that moves with `frame` u_m and takes `density` along."""
+    """Mass flow (`row`) of node k in a frame that moves with `frame` u_m and takes `density` along."""
     out = S[row, k] - frame * S[density, k]
     if ti.static(row == density):
         out = (1.0 - frame) * S[row, k]
@@ -72,8 +72,10 @@ def transport(S: ti.template(), k, i, couette: ti.template(), frame):
 @ti.kernel
 def residual(S: ti.template(), G: Table, couette: ti.template(), skew: ti.template(), rheology: ti.template(),
              alone: ti.template()):
-    """R = dx [ d(rho H)/dX + d(rho H)/dT - div(eps grad P) ] on the unknowns of the finest level, 0 elsewhere; with d/dT in a
-    frame that moves, only the rest of the Couette flow is in d/dX."""
+    """Compute R = dx [ d(rho H)/dX + d(rho H)/dT - div(eps grad P) ] at the unknowns of the finest level, 0 elsewhere.
+
+    With d/dT in a moving frame, d/dX contains only the rest of the Couette flow.
+    """
     nx, ny, off = cells(G, 0)
     n2 = nx + 1
     ti.loop_config(block_dim=1, serialize=alone)
@@ -110,11 +112,10 @@ def store_rows(J: ti.template(), k, rows: ti.template(), c0, c1, c2, c3):
 def linearise(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32,
               known: Flat, couette: ti.template(), slope: ti.template(), skew: ti.template(), rheology: ti.template(),
               alone: ti.template()):
-    """Jacobian rows, EPS and the diagonal in the blocks first..last-1; needs `laws` and `slopes`.
+    """Compute Jacobian rows, EPS and the diagonal in the blocks first..last-1; needs `laws` and `slopes`.
 
     known[0]: 1 after another linearisation of the same solve (:mod:`tehl_taichi.pressure.saturation`), else 0; couette: row of
-    the density in the Couette flow, slope: row of its derivative, skew: as in
-    :class:`tehl_taichi.pressure.fields.LawRows`.
+    the density in the Couette flow; slope: row of its derivative; skew: as in :class:`tehl_taichi.pressure.fields.LawRows`.
     """
     ti.loop_config(block_dim=1, serialize=alone)
     for b in range(first, last):
@@ -162,7 +163,7 @@ def reynolds_row(J: ti.template(), k, n2):
 
 @ti.kernel
 def contact_right(S: ti.template(), J: ti.template(), G: Table, right: LinearFlat, alone: ti.template()):
-    """right of touching nodes = minus the scaled rows times what the film violates its floor by."""
+    """Set `right` of touching nodes to minus the scaled rows times the violation of the film's floor."""
     nx, ny, off = cells(G, 0)
     n2 = nx + 1
     ti.loop_config(block_dim=1, serialize=alone)

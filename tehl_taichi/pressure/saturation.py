@@ -1,9 +1,9 @@
-"""Slope of a flux that saturates: between its tangent and its secant, by the flux that the last Newton step expected.
+"""Slope of a saturating flux: between its tangent and its secant, by the flux that the last Newton step expected.
 
-Beyond a small gradient of the pressure sheared oil flows as a plug with one wall: its flux q(g) is nearly a switch in the
-difference g of the pressure, and Newton steps by tangents alone do not settle. As for total variation (Chan, Golub & Mulet
-1999) the flux w is an unknown of its own here, with the equation w g/q(g) = g. It is eliminated: the residual stays what it is,
-the slope is the tangent where w = q(g) and the secant where w = 0. Figures: docs/decisions/01-sheared-flow.md.
+Beyond a small pressure gradient sheared oil flows as a plug along one wall: its flux q(g) is nearly a step function of the
+difference g of the pressure, and Newton steps with tangents alone do not converge. As for total variation (Chan, Golub & Mulet
+1999), the flux w is a separate unknown with the equation w g/q(g) = g. It is eliminated: the residual is unchanged; the slope
+is the tangent if w = q(g) and the secant if w = 0. Figures: docs/decisions/01-sheared-flow.md.
 """
 
 from tehl_taichi.engine.language import ti
@@ -14,7 +14,9 @@ LEAST_FLUX = 1e-30
 
 @ti.dataclass
 class Line:
-    """The flux by the difference g of P at the last linearisation, base + rise g; known: 0 at the first one of a solve."""
+    """Flux as a linear function of the difference g of P at the last linearisation, base + rise g; known: 0 at the first one of
+    a solve.
+    """
 
     base: V
     rise: V
@@ -28,7 +30,7 @@ def unknown():
 
 @ti.func
 def share(line, flux, g, bend):
-    """Share of the tangent in the slope of the flux, the rest is the secant's. bend: tangent less secant."""
+    """Share of the tangent in the slope of the flux; the rest is the secant's. bend: tangent minus secant."""
     out = V(1.0)
     if line.known > 0.0:
         expected = line.base + line.rise * g

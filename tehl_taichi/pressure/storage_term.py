@@ -1,11 +1,12 @@
-"""The storage term d(rho H)/dT of the Reynolds equation: backward differences along the path of the oil.
+"""Storage term d(rho H)/dT of the Reynolds equation: backward differences along the path of the oil.
 
-In the contact rho H is carried by the oil, unchanged, and a feature that rolls with the oil stands still in its frame: along
-the paths little happens in a step, while at rest a whole feature passes. What passes at rest is kept apart: the Couette flow
-of the smooth contact (rho H of the start) stays third-order upwind, only what differs from it is followed along the paths.
+In the contact the oil carries rho H unchanged, and a feature that rolls with the oil is at rest in the oil's frame. So along
+the paths little changes in a step, while at a fixed place a whole feature passes. The resting part is separate: the Couette
+flow of the smooth contact (rho H of the start) stays third-order upwind; only the difference from it is followed along the
+paths.
 
 Film under the 1.5 um asperity of the gear at X = 0 on 128 / 256 / 512 columns (limit 0.142): BDF2 at rest 0.146 / 0.140 /
-0.142, its pattern 6 % too slow on 256 columns; along the paths BDF2 0.126 / 0.138 / 0.141, BDF3 0.131 / 0.139 (with the same
+0.142, its pattern 6 % too slow on 256 columns; along the paths BDF2 0.126 / 0.138 / 0.141, BDF3 0.131 / 0.139 (with equal
 mobilities). Steps of half a cell: with cubic interpolation -1.2 %, with this one +0.5 %, p_max +0.01 %.
 """
 
@@ -40,9 +41,9 @@ STEADY = 1e-6  # relative; third-order differences need steps of equal length
 
 @functools.lru_cache(maxsize=16)  # nearly all steps have one length
 def bdf(*lengths):
-    """(rate, weights): df/dt is rate (f - sum of weights times the values before), by the polynomial through them.
+    """(rate, weights): df/dt is rate (f - sum of weights times earlier values), by the polynomial through them.
 
-    lengths: this step's, that of the step before, ... (one more value each).
+    lengths: of this step, the last one, ... (one value more for each).
     """
     t = -np.concatenate([[0.0], np.cumsum(lengths)])
     rate, weights = -np.sum(1 / t[1:]), []
@@ -53,12 +54,12 @@ def bdf(*lengths):
 
 
 def _lost(cells):
-    """Share of the shortest wave that is taken out on the way of so many cells."""
+    """Share of the shortest wave that is damped during a move by `cells`."""
     return 1 - (1 - DAMPING) ** round(cells) if abs(cells - round(cells)) < WHOLE else 0.0
 
 
 def third_order(q):
-    """dx dq/dX of q (..., nx+1) by the Couette stencil of the Reynolds equation; 0 in the border columns."""
+    """Difference dx dq/dX of q (..., nx+1) by the Couette stencil of the Reynolds equation; 0 in the border columns."""
     out, last = np.zeros_like(q), q.shape[-1] - 1
     for t, (weight, first) in enumerate(zip(UPWIND, FIRST)):
         out[..., 2:-1] += weight * q[..., t : last - 2 + t]
@@ -74,7 +75,7 @@ ROW, SHARE = range(2)  # columns of an old state: its row, share of the shortest
 
 @ti.dataclass
 class Frame:
-    """Frame in which the old states are followed."""
+    """Frame of reference in which the old states are followed."""
 
     states: ti.f64  # number of those that count
     speed: ti.f64  # of the oil's
@@ -84,7 +85,7 @@ class Frame:
 
 @ti.func
 def differences(O: ti.template(), first, i, nx, states: ti.template(), ways: ti.template(), count):
-    """Differences from the resting state along the paths: their sum, and the sum without its shortest wave."""
+    """Differences from the resting state along the paths: (their sum, the sum without its shortest wave)."""
     out, lost = L(O, 0.0), L(O, 0.0)
     for n in range(count):
         row = int(states[n, ROW])
@@ -100,7 +101,7 @@ def differences(O: ti.template(), first, i, nx, states: ti.template(), ways: ti.
 
 @ti.func
 def eighth(O: ti.template(), q):
-    """The shortest wave of LOST in column q."""
+    """Shortest wave of LOST in column q."""
     out = L(O, 0.0)
     for m in ti.static(range(9)):
         out += ti.static(EIGHTH[m]) * O[LOST, q - 4 + m]
@@ -109,7 +110,7 @@ def eighth(O: ti.template(), q):
 
 @ti.kernel
 def follow(S: ti.template(), O: ti.template(), G: Table, numbers: Flat, states: Table, ways: Table, alone: ti.template()):
-    """QOLD from the old states."""
+    """Compute QOLD from the old states."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
@@ -127,7 +128,7 @@ def follow(S: ti.template(), O: ti.template(), G: Table, numbers: Flat, states: 
 
 @ti.kernel
 def keep(S: ti.template(), O: ti.template(), G: Table, row: Flat, alone: ti.template()):
-    """O[row[0]] = rho H of the present state."""
+    """Set O[row[0]] = rho H of the present state."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
@@ -137,7 +138,9 @@ def keep(S: ti.template(), O: ti.template(), G: Table, row: Flat, alone: ti.temp
 
 
 class Storage:
-    """rho H of the start and of the last steps on `levels`; state: what :meth:`state` gave, or None for the table's."""
+    """Values rho H of the start and of the last steps on `levels`; state: result of :meth:`state`, or None for the state in the
+    table.
+    """
 
     def __init__(self, levels, state=None):
         self.levels, self.past = levels, StateHistory(levels, len((START, COUETTE, LOST, *OLD)))
@@ -162,7 +165,7 @@ class Storage:
         self.lengths = list(state["lengths"])
 
     def centre(self):
-        """Take the newest state as the resting one: a state that no longer changes is then steady."""
+        """Take the newest state as the resting one: a state that no longer changes is then exactly steady."""
         self._rest(self.past.get(self.old[0]))
 
     def _rest(self, start):
@@ -170,7 +173,7 @@ class Storage:
         self.past.put(COUETTE, third_order(start))
 
     def replace(self, start, old):
-        """Take rho H to be `start` at rest and `old` in the last steps, the newest first: of a grid that has moved."""
+        """Replace rho H by `start` at rest and `old` in the last steps, the newest first, for a grid that has moved."""
         self._rest(start)
         self.known = len(old)
         for row, q in zip(self.old, old):
@@ -182,7 +185,7 @@ class Storage:
         return {"mass": np.stack([self.past.get(row) for row in rows]), "lengths": np.array(self.lengths)}
 
     def begin(self, dT):
-        """Rate, frame and old levels of the storage term for a step of dT."""
+        """Set rate, frame and old levels of the storage term for a step of dT."""
         v, length = self.levels, dT / self.levels.dx
         speed = min(1.0, LONGEST_PATH / length)
         lengths = [dT, *self.lengths[: self._order(dT, (1 - speed) * length) - 1]]
@@ -201,7 +204,7 @@ class Storage:
         return min(ORDER if steady else 2, self.known)
 
     def accept(self, dT):
-        """The state in the table is the next one, dT after the last."""
+        """Take the state in the table as the next one, dT after the last."""
         self._keep_newest()
         self.lengths = [dT, *self.lengths[: ORDER - 2]]
 

@@ -18,20 +18,22 @@ Stack = ti.types.ndarray(dtype=ti.f64, ndim=3)
 
 @ti.func
 def solid_friction(rheology: ti.template(), p, u_s):
-    """Stress on body a where the surfaces touch, against its slip u_s = u_a - u_b."""
+    """Stress on body a at touching nodes, against its slip u_s = u_a - u_b."""
     return against(u_s) * boundary_stress(rheology, p)
 
 
 @ti.func
 def against(u_s):
-    """Sign of the stress on body a that slips at u_s."""
+    """Sign of the stress on body a with slip u_s."""
     return 1.0 if u_s < 0 else (-1.0 if u_s > 0 else 0.0)
 
 
 @ti.func
 def borne(mean, half, limit):
-    """Mean stress and half the difference of both walls, no wall beyond the limit: the mean gives way first, since the
-    difference is what balances the pressure."""
+    """(mean wall stress, half the difference of both walls), no wall beyond the limit.
+
+    The mean is reduced first, because the difference balances the pressure.
+    """
     kept = within(half, -limit, limit)
     room = limit - ti.abs(kept)
     return within(mean, -room, room), kept
@@ -39,15 +41,16 @@ def borne(mean, half, limit):
 
 @ti.func
 def shortened(x, y, limit):
-    """The vector (x, y), no longer than the limit."""
+    """The vector (x, y), shortened to the limit."""
     part = minimum(limit / maximum(ti.sqrt(x * x + y * y), SMALLEST), 1.0)
     return x * part, y * part
 
 
 @ti.func
 def walls(mean_x, half_x, mean_y, half_y, limit):
-    """Force per area on body a along x and y, on body b along x and y, from the stress in the middle of the film and halves of
-    its differences between both walls."""
+    """Force per area on body a along x and y, and on body b along x and y, from the stress in the middle of the film and half
+    its differences between the walls.
+    """
     m_x, x = borne(mean_x, half_x, limit)
     m_y, y = borne(mean_y, half_y, limit)
     a_x, a_y = shortened(m_x - x, m_y - y, limit)
@@ -57,10 +60,10 @@ def walls(mean_x, half_x, mean_y, half_y, limit):
 
 @ti.func
 def on_bodies(S: ti.template(), G: ti.template(), at: ti.template(), rheology: ti.template(), scene: ti.template()):
-    """Force per area (Pa) on body a along x and y, on body b along x and y.
+    """Force per area (Pa) on body a along x and y, and on body b along x and y.
 
-    z points from a to b. Stress tau(z) = tau_m + (z - h/2) dp/dx with tau_m as the flow has it; body a feels tau(0), body b
-    feels -tau(h). Touching nodes: mu_b p, at most the shear limit, and nothing else.
+    z points from a to b. Stress tau(z) = tau_m + (z - h/2) dp/dx with tau_m of the flow; body a feels tau(0), body b -tau(h).
+    Touching nodes: mu_b p, at most the shear limit, and nothing else.
     """
     px, py = central_gradient(S, G, at)
     p, solid = S[P, at.k] * scene.p_H, S[TOUCH, at.k] > 0
@@ -73,7 +76,7 @@ def on_bodies(S: ti.template(), G: ti.template(), at: ti.template(), rheology: t
 
 @ti.func
 def store(out: ti.template(), at: ti.template(), a_x, a_y, b_x, b_y):
-    """Store the tractions of a place in a Stack."""
+    """Store the tractions at a node in a Stack."""
     for u in ti.static(range(W)):
         j = at.s * W + u
         if j <= at.ny:

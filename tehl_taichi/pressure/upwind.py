@@ -1,4 +1,4 @@
-"""Third-order upwind-biased difference of what the oil carries, q_{i+1/2} = (2 q_{i+1} + 5 q_i - q_{i-1})/6."""
+"""Third-order upwind-biased difference of a transported quantity, q_{i+1/2} = (2 q_{i+1} + 5 q_i - q_{i-1})/6."""
 
 from tehl_taichi.engine.language import ti
 
@@ -8,7 +8,7 @@ FIRST = (0.0, -0.5, 0.0, 0.5)  # at the first interior node: the central differe
 
 @ti.func
 def couette_weights(i):
-    """The weights at node i."""
+    """Weights at node i."""
     w = ti.Vector(UPWIND)
     if i == 1:
         w = ti.Vector(FIRST)

@@ -1,4 +1,5 @@
-"""Error estimates: the same scene on coarser grids (`coarse_runs`), error bars, the influence of the domain, unresolved peaks.
+"""Error estimates: runs of the scene on coarser grids (`coarse_runs`), error bars, influence of the domain, unresolved peaks.
 
-`readings` are the numbers of one grid, `error_bars` extrapolates several of them, `domain_error` varies the border.
+`readings` are the numbers of one grid, `error_bars` extrapolates several of them, `domain_error` estimates the effect of the
+border.
 """

@@ -1,8 +1,8 @@
 """Coarse-grid runs: the passage of a run on grids with a half and a quarter of the cells, for error bars.
 
-They take about a seventh of its time, after it, in its tables and by its compiled kernels, or beside it where a core is idle
-(:mod:`tehl_taichi.runs.background_errors`). What happens to them never hurts the run: a coarse-grid run that is refused or does
-not converge means that a bar is not known, and why.
+They take about a seventh of its time: after the run, with its tables and compiled kernels, or in the background on an idle core
+(:mod:`tehl_taichi.runs.background_errors`). They cannot harm the run: if one is refused or does not converge, the bar is
+unknown, with the reason.
 """
 
 import itertools
@@ -46,7 +46,9 @@ WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose c
 
 
 def scenes(scene):
-    """([scenes with half and a quarter of the cells, coarsest first], [why others are left out]); steps grow with the cells."""
+    """([scenes with half and a quarter of the cells, coarsest first], [reasons for omitted ones]); steps grow with the
+    cells.
+    """
     out, refused = [], []
     for level in range(1, COMPANIONS + 1):
         nx, ny = scene.grid.nx // 2**level, scene.grid.ny // 2**level
@@ -60,14 +62,16 @@ def scenes(scene):
 
 
 def _rough_as_seen(scene, times):
-    """The scene without those of its features that a grid with 1/times of the columns would not resolve; with all where it
-    resolves none. Of roughness the long waves are left, whose effect is part of what grids differ by."""
+    """Scene without the features that a grid with 1/times of the columns does not resolve; with all if it resolves none.
+
+    Of roughness the long waves are kept; the effect of the others is part of the difference between grids.
+    """
     seen = resolution.resolved_features(scene, times)
     return replace(scene, features=seen) if seen else scene
 
 
 def _all_of_them(scene):
-    """Which cells have every coarse-grid run, where those of a scene have not."""
+    """Sentences about the cell numbers that allow every coarse-grid run, if those of the scene do not."""
     nx, ny = (least << COMPANIONS for least, _ in MULTIPLES.values())
     if scene.grid.nx % nx or scene.grid.ny % ny:
         yield f"use a grid.nx that is a multiple of {nx} and a grid.ny that is a multiple of {ny}"
@@ -76,9 +80,8 @@ def _all_of_them(scene):
 def passage_readings(scene, reader, scalar, searches=None, run_in=None):
     """{name: GridReading} of the numbers of a passage.
 
-    reader: entries as :class:`tehl_taichi.fatigue.stress.histories.StressHistories` takes them, the steady start first;
-    scalar(name): array of the entries' values; searches: {surface: summary of its search}, or None; run_in: numbers of its
-    run-in, or None.
+    reader: entries for :class:`tehl_taichi.fatigue.stress.histories.StressHistories`, the steady start first; scalar(name):
+    array of the entries' values; searches: {surface: summary of its search}, or None; run_in: numbers of its run-in, or None.
     """
     p, h, a = *(scalar(name)[1:] for name in ("p_max_Pa", "h_min_m")), Scales.of(scene).a
     bars_of = [entry for entry in quantities.of_part("transient") if entry.error]
@@ -110,34 +113,38 @@ def _reading(entry, scalar, scene):
 
 
 def _spread_reading(part, key):
-    """Reading of a number of a distribution; a share may be off by two of its points, one of none only with an index near 1."""
+    """Reading of a number of a distribution.
+
+    A share has an uncertainty of two of its points; a share of zero has one only if the index is near 1.
+    """
     uncertain = key == "share_above_1" and (part[key] > 0 or part["p99"] > FAR)
     blur = FEW / part["points"] if uncertain else 0.0
     return GridReading(float(part[key]), blur=blur, spread=TOP if key == "p99" and "depth_m" not in part else REST)
 
 
 def _of_cells(out, searches):
-    """Readings of the averaged index on a grid whose cells are as long as the length: those at its nodes."""
+    """Readings of the averaged index on a grid whose cells are as long as the averaging length: the values at its nodes."""
     names = [(of_surface(surface, wide), of_surface(surface, own)) for surface in searches
              for wide, own in ((AVERAGED, FI), (AVERAGED_BELOW, BELOW))]
     return {wide: out[own] for wide, own in names if wide not in out and own in out}
 
 
 def _doubted(reading, why, pressures):
-    """The reading of a number that depends on the highest pressures (a :func:`course`), where `why` is not known."""
+    """Reading with a doubt `why`, if it depends on the highest pressures (a :func:`course`)."""
     return replace(reading, doubt=why or reading.doubt, course=() if code_of(reading.doubt) == SHALLOW.code else pressures)
 
 
 def course(p, at, path):
-    """Largest of the pressures p while the feature, `at` these places (a), is in each PART of its path; nan: never there."""
+    """Largest of the pressures p in each PART of the path, at feature positions `at` (a); nan for a part without any."""
     parts = np.floor((np.asarray(at) - path[0]) / PART + 1e-9).astype(int)
     count = int(np.floor((path[1] - path[0]) / PART + 1e-9)) + 1
     return tuple(float(p[parts == n].max()) if (parts == n).any() else np.nan for n in range(count))
 
 
 def _shallow(name, found):
-    """Why an index below the surface is not known where it grows towards the surface as far as the grid can look, beyond what
-    the surface itself has; "" of others. found: see :func:`indices`."""
+    """Reason why an index below the surface is unknown, if it grows towards the surface up to the smallest depth of the search,
+    and exceeds the index of the surface; otherwise "". found: see :func:`indices`.
+    """
     (surface, part), above = name.split(":"), {BELOW: FI, RESOLVED_BELOW: RESOLVED, AVERAGED_BELOW: AVERAGED}
     if part not in above or not near_the_surface(found[name], found[of_surface(surface, FI)]):
         return ""
@@ -145,13 +152,14 @@ def _shallow(name, found):
 
 
 def near_the_surface(deep, fatigue):
-    """Whether the worst depth of a part below lies as near to it as the search looks; fatigue: the summary of that."""
+    """Whether the worst depth of a part below is at the smallest depth of the search; fatigue: the summary of that search."""
     return deep["depth_m"] < SHALLOWEST * fatigue["below"].get("searched_m", [0.0])[0]
 
 
 def indices(searches):
-    """{name of its largest index among the readings: part of the summary of a search}, of the parts that there are; searches:
-    {surface: summary of its search}."""
+    """{name of its largest index among the readings: part of the summary of a search}, for existing parts; searches: {surface:
+    summary of its search}.
+    """
     found: dict[str, Any] = {}
     for surface, summary in searches.items():
         whole = searched(summary)
@@ -163,7 +171,7 @@ def indices(searches):
 
 
 def distributions(searches):
-    """[(name among the readings, statistics of a search)], at the surface and at every depth; as :func:`indices`."""
+    """[(name among the readings, statistics of a search)] at the surface and at every depth; searches: see :func:`indices`."""
     out = []
     for surface, summary in searches.items():
         found = searched(summary)
@@ -174,7 +182,7 @@ def distributions(searches):
 
 
 def von_mises_parts(searches):
-    """{name among the readings: numbers of the von Mises stress} of searches; as :func:`indices`."""
+    """{name among the readings: numbers of the von Mises stress} of searches; see :func:`indices`."""
     found = {surface: searched(summary).get("von_mises") for surface, summary in searches.items()}
     return {of_surface(surface, MISES): part for surface, part in found.items() if part}
 
@@ -190,25 +198,27 @@ def of_run_in(key):
 
 
 def whole(found):
-    """The names in `found` (see :func:`indices`) that are of all moments and of stresses at points."""
+    """Names in `found` (see :func:`indices`) that cover all moments and stresses at points."""
     return [name for name in found if name.split(":")[1] in (FI, BELOW)]
 
 
 def resolved(scene, reader, scalar):
-    """Position (a) of the feature up to which the grid resolves every peak of the pressure; None where it always does."""
+    """Position (a) of the feature up to which the grid resolves every pressure peak; None if it always does."""
     p, a = scalar("p_max_Pa")[1:], Scales.of(scene).a
     first = next((n for n in _high(p) if readings.unresolved(reader, [n], p.max(), a)), None)
     return None if first is None else float(reader.feature_x(first - 1)) / a
 
 
 def _high(p):
-    """Entries with pressures high enough for a peak that leaves the largest unknown; p: theirs from entry 1 on."""
+    """Entries whose pressure is high enough for a peak that makes the largest one unknown; p: pressures from entry 1 on."""
     return [int(n) + 1 for n in np.flatnonzero(p >= LEAST * p.max())]
 
 
 def values(scene, notify=lambda: None, until=lambda: None):
-    """{name: GridReading} of one coarse-grid run; notify() after each step; until(): see :func:`answers`. Raises
-    NotConverged."""
+    """{name: GridReading} of one coarse-grid run. Raises NotConverged.
+
+    notify(): called after each step; until(): see :func:`answers`.
+    """
     from tehl_taichi.fatigue import assessment
     from tehl_taichi.march.passage import march
 
@@ -219,7 +229,7 @@ def values(scene, notify=lambda: None, until=lambda: None):
 
 
 def _steps(shots, notify):
-    """List of the snapshots of a march; notify() after each."""
+    """List of the snapshots of a march; notify(): called after each."""
     out = []
     for shot in shots:
         out.append(shot)
@@ -228,7 +238,7 @@ def _steps(shots, notify):
 
 
 def _passages(scene, notify):
-    """(Snapshots of the passage after the run-in of a scene, numbers of that); notify() after each step."""
+    """(Snapshots of the passage after the run-in of a scene, numbers of the run-in); notify(): called after each step."""
     from tehl_taichi.fatigue.assessment import Snapshots
     from tehl_taichi.march.passage import march
     from tehl_taichi.plastic import run_in, run_in_numbers
@@ -248,11 +258,12 @@ def _moment(reader, n):
 
 
 def errors(scene, reader, searches, coarse, domain=DomainError(), run_in=None):
-    """{"passage_error": {name: error bar or None}, "passage_unknown": {name: why it is None}, "passage_parts": {name: {"grid",
-    "domain"}}} of the numbers of a run; {} of one without a passage, doubts alone where there are no coarse-grid runs.
+    """Error bars of the numbers of a run: {"passage_error": {name: error bar or None}, "passage_unknown": {name: reason of
+    None}, "passage_parts": {name: {"grid", "domain"}}}.
 
-    reader: its store; searches: {surface: summary of its search} or None; coarse(): the answers of the scene's coarse-grid runs
-    (:func:`answers`); domain: the DomainError of its start; run_in: numbers of its run-in, or None.
+    {} without a passage; without coarse-grid runs the reasons only. reader: its store; searches: {surface: summary of its
+    search} or None; coarse(): results of :func:`answers`; domain: DomainError of the steady start; run_in: numbers of its
+    run-in, or None.
     """
     if len(reader) < 2:
         return {}
@@ -269,25 +280,29 @@ def errors(scene, reader, searches, coarse, domain=DomainError(), run_in=None):
 
 
 def has_coarse_runs(scene):
-    """Whether a run has coarse-grid runs: where they are requested, and, if not refused, where the run is worth it or the
-    surfaces are rough, of which one grid says little."""
+    """Whether a run has coarse-grid runs: if they are requested, or, unless refused, if the run is long enough or the surfaces
+    are rough (where one grid says little).
+    """
     choice = scene.numerics.estimate_error
     return choice is True or choice is not False and (work(scene) >= WORTH or scene.has_fatigue and is_rough(scene))
 
 
 def work(scene):
-    """Nodes times steps of a run."""
+    """Work of a run: nodes times steps."""
     return nodes(scene) * total_steps(scene)
 
 
 def nodes(scene):
-    """Nodes of a grid."""
+    """Number of nodes of a grid."""
     return (scene.grid.nx + 1) * (scene.rows + 1)
 
 
 def answers(scene, notify=lambda done, total: None, until=lambda: None):
-    """Results of the coarse-grid runs of a scene, coarsest first, for :func:`judged`. The finest runs first: where it fails, no
-    coarser one is of use. until(): what :func:`resolved` gives of the run itself, requested when it is needed."""
+    """Results of the coarse-grid runs of a scene, coarsest first, for :func:`judged`.
+
+    The finest one runs first: if it fails, coarser ones are useless. until(): result of :func:`resolved` for the run itself,
+    called when needed.
+    """
     (coarser, reasons), done = scenes(scene), itertools.count()
     out: list[dict[str, Any]] = []
     total = sum(total_steps(one) + 1 for one in coarser)  # with their starts
@@ -301,8 +316,11 @@ def answers(scene, notify=lambda done, total: None, until=lambda: None):
 
 
 def judged(coarse, own):
-    """({name: error bar or None}, {name: why it is None}) of own {name: GridReading}; coarse: results of the coarse-grid runs,
-    coarsest first, {"values": {name: a GridReading's values}} or {"reason": why there are none}."""
+    """({name: error bar or None}, {name: reason of None}) of own {name: GridReading}.
+
+    coarse: results of the coarse-grid runs, coarsest first, {"values": {name: values of a GridReading}} or {"reason": of a
+    failure}.
+    """
     grids: list[dict[str, GridReading]] = []
     reasons: list[str] = []
     for one in coarse:
@@ -316,7 +334,7 @@ def judged(coarse, own):
 
 
 def answer(scene, notify=lambda: None, until=lambda: None):
-    """Result of a coarse-grid run, for :func:`judged`; notify() after each step; until(): see :func:`answers`."""
+    """Result of one coarse-grid run, for :func:`judged`; notify(): called after each step; until(): see :func:`answers`."""
     try:
         return {"values": {name: asdict(reading) for name, reading in values(scene, notify, until).items()}}
     except Error as error:

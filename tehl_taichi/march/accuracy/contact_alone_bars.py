@@ -1,4 +1,4 @@
-"""Fatigue of the contact alone on the grids that the start visited: its numbers and their error bars."""
+"""Fatigue of the contact alone on all grids of the steady start: its numbers and their error bars."""
 
 from tehl_taichi.fatigue import contact_alone
 from tehl_taichi.fatigue.assessment import Snapshots
@@ -11,8 +11,8 @@ INDICES = ("Fi_max", "surface_Fi_max")
 
 
 def searches(scene, first):
-    """{surface: numbers of :func:`tehl_taichi.fatigue.contact_alone.search`, with "error" and "unknown"}, of the bodies that
-    move, the worse one first; {} where fatigue is off.
+    """{surface: numbers of :func:`tehl_taichi.fatigue.contact_alone.search`, with "error" and "unknown"} of the moving bodies,
+    the worse one first; {} if fatigue is off.
 
     first: snapshot of the steady start, see :class:`tehl_taichi.march.snapshot.Snapshot`.
     """
@@ -33,5 +33,5 @@ def _searched(scene, surface, first):
 
 
 def _values(one):
-    """{name: number that has an error bar} of a search."""
+    """{name: number with an error bar} of a search."""
     return {**{name: one[name] for name in INDICES}, MISES: one["von_mises"]["max_Pa"]}

@@ -1,9 +1,10 @@
-"""Error of the numbers of a run by the end of the domain: a share of the film, from the steady start.
+"""Error of the numbers of a run by the finite domain: a share of the film, estimated from the steady start.
 
-A border without pressure in a flooded inlet takes alpha q (0.73 + 0.15 |X|/(alpha p_H)) of the film, q the reduced pressure
-that the oil beyond it would have there and 0.73 Grubin's exponent 8/11 (99 lines of M 5 to 100, L 2 to 20: 0.82 to 1.14 of what
-is measured); a point contact 0.73 alpha q and, by its sides, (gap there/0.7 films)^(-3/2). Of that a border with the pressure
-of the oil beyond leaves a part. What the oil beyond carries is missing in the load.
+A border without pressure in a flooded inlet reduces the film by the share alpha q (0.73 + 0.15 |X|/(alpha p_H)); q is the
+reduced pressure of the oil at this place in an endless inlet, 0.73 Grubin's exponent 8/11 (99 lines of M 5 to 100, L 2 to 20:
+measured values are 0.82 to 1.14 of this). For a point contact it is 0.73 alpha q, and for its sides (gap there/0.7
+films)^(-3/2). A border with the pressure of the oil beyond it leaves a part of this error. The load carried by the oil beyond
+it is missing.
 """
 
 import math
@@ -31,9 +32,10 @@ PRESSURE, SLIDING, HEATING = 2.0, 3.0, 2.0  # of the share of the film: of the l
 
 @dataclass(frozen=True)
 class DomainError:
-    """Relative errors by the domain, film: of the central film, thinnest: of the smallest, friction: of its coefficient;
-    before: that of the coefficient by the oil before the domain; gap: at the inlet, over the film; lost: relative error of the
-    film that a border without pressure has."""
+    """Relative errors by the domain. film: of the central film; thinnest: of the minimum film; friction: of the friction
+    coefficient; before: error of that coefficient by the oil before the domain; gap: at the inlet, over the film; lost:
+    relative error of the film with a border without pressure.
+    """
 
     film: float = 0.0
     thinnest: float = 0.0
@@ -44,14 +46,14 @@ class DomainError:
 
     @classmethod
     def from_values(cls, values):
-        """DomainError from what :meth:`values` gave; of a store that has none: nothing is known to be off."""
+        """DomainError from the result of :meth:`values`; for a store without it, zero errors."""
         return cls(**{field.name: values[field.name] for field in of_class(cls) if field.name in values})
 
     def values(self):
         return asdict(self)
 
     def of(self, name, value, inlet, passing):
-        """Error of a number of a steady start (or a passage) by the size of the domain; inlet: deg C."""
+        """Error of a temperature-like number of a steady start (or a passage) by the size of the domain; inlet: deg C."""
         if name.startswith("friction"):
             return self.friction * abs(value) + self.before
         if name in HEAT:
@@ -61,7 +63,7 @@ class DomainError:
 
 
 def domain_error(solver):
-    """The DomainError of the steady film in the table."""
+    """DomainError of the steady film in the table."""
     v, inlet = solver.levels, Inlet(solver.levels)
     H = v.get(fields.H)
     gap = float(H[v.middle, 0] / np.interp(0.0, v.X, H[v.middle]))
@@ -75,13 +77,13 @@ def domain_error(solver):
 
 
 def _left(v, inlet, gap):
-    """Part of what a border without pressure takes that one with it leaves."""
+    """Part of the error of a border without pressure that remains with a border with pressure."""
     left = STIFF + SOFT * inlet.q[-1] / v.scales.p_H if v.line else LEFT[v.scales.kind]
     return left + (0.0 if v.scene.isothermal else min(HOT / gap, HOTTEST))
 
 
 def _raised(v, inlet, H):
-    """Part of its film that a starved one would gain."""
+    """Relative increase of a starved film in a flooded inlet."""
     gain = 0.0
     for _ in range(40):
         lost = min(_lost(v, inlet, H, gain), 0.9)
@@ -90,7 +92,7 @@ def _raised(v, inlet, H):
 
 
 def _lost(v, inlet, H, gain):
-    """Share of the film that a border without pressure takes, of a film that is thicker by `gain` of itself than H."""
+    """Share of the film lost with a border without pressure, for a film that is thicker than H by the share `gain`."""
     film = np.interp(0.0, v.X, H[v.middle])
     q = inlet.without_heat(H + gain * film, (1 + gain) * inlet.carried(H)) / inlet.q[-1]
     if v.line:
@@ -100,14 +102,14 @@ def _lost(v, inlet, H, gain):
 
 
 def _load(v, inlet, H):
-    """Share of the load that the oil beyond the border of a line carries."""
+    """Share of the load of a line contact carried by the oil beyond the border."""
     X, gap, weights = far(v.X[0], H[v.middle, 0], 1.0)
     shape = np.sum(weights * (np.abs(X) - abs(v.X[0])) * (gap - inlet.carried(H)) / gap**3)
     return max(float(shape), 0.0) / v.numbers.inv_lambda / v.scales.load
 
 
 def _before(v, H):
-    """Friction coefficient of the sheared oil before the domain; a point contact's as wide as its grid."""
+    """Friction coefficient of the oil sheared before the domain; for a point contact over the width of the grid."""
     X, gap, weights = far(v.X[0], H[v.middle, 0], float(v.line))
     wide = 1.0 if v.line else 2 * abs(v.Y[-1])
     sheared = v.conditions["eta0"] * abs(v.conditions["u_s"]) / (v.scales.h * v.scales.p_H)
@@ -115,8 +117,11 @@ def _before(v, H):
 
 
 def widened(errors, unknown, values, found, inlet, passing=False):
-    """(bars, why some are unknown, {name: {"grid", "domain"}}) of bars by the grid, {name: size or None}, and of what the
-    DomainError `found` adds to them, whose causes are independent: in quadrature; values: {name: the number}; inlet: deg C."""
+    """Add the DomainError `found` to the bars by the grid: (bars, reasons of unknown ones, {name: {"grid", "domain"}}).
+
+    Both causes are independent, so they add in quadrature. errors: {name: size or None}; values: {name: the number}; inlet: deg
+    C.
+    """
     parts = {name: {"grid": size, "domain": found.of(name, values[name], inlet, passing)} for name, size in errors.items()}
     whole = {name: None if part["grid"] is None else math.hypot(part["grid"], part["domain"]) for name, part in parts.items()}
     lost = [name for name, size in whole.items() if size is not None and _positive(name) and size >= values[name]]

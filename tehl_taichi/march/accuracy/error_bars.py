@@ -1,10 +1,10 @@
-"""Error bars: how far a number may lie from its limit, from what grids each twice as fine as the one before gave.
+"""Error bars: estimated distance of a number from its limit, from a sequence of grids, each twice as fine as the last.
 
-Where the differences between grids fall evenly, Richardson's extrapolation with the order observed (Roache 1994), at most
-log2 3, and a factor of safety. They do so for the central film of thick films; thin films are not there yet on the coarse
-grids (differences fall by 10, not 4), extremes over nodes jump about with the places of the nodes, and a pressure spike is
-as high as its grid is fine. So the last difference bounds the error where they do not, a part of the earlier ones bounds it
-anyway, and a number that neither its grid nor three together can know has no bar. The factors are measured on 1000 bars of
+Where the differences between grids fall evenly: Richardson's extrapolation with the observed order (Roache 1994), at most log2
+3, and a factor of safety. This works for the central film of thick films. It does not work for thin films on coarse grids
+(differences fall by 10, not 4), for extremes over nodes (they depend on the places of the nodes), and for a pressure spike,
+whose height depends on the grid. There the last difference bounds the error; a part of the earlier ones is a lower limit of the
+bar. A number that neither its grid nor three grids together resolve has no bar. The factors were calibrated on 1000 bars of
 random scenes: `tehl bench accuracy`, docs/performance.md.
 """
 
@@ -44,14 +44,13 @@ GROWS_ON, EXCEEDS = 4.0, 0.1
 class GridReading:
     """A number on one grid.
 
-    blur: how far the true extreme may lie from the one over nodes on this grid; place: where that is, in each frame in which it
-    may rest, and cell: the spacing there, () and nan for a number that is no extreme; doubt: why this grid cannot know the
-    number ("" where it can); lost: whether its value is not even a step towards that of the next grid; settled: how far the
-    iterations may have left it from the solution of this grid; positive: whether the number is so by nature, as a film is;
-    course: where grids together may settle a doubt, the largest pressures by parts of the passage (nan: none), else ();
-    swayed: whether a pressure that this grid does not know has a part in it; spread: of a number of the distribution over many
-    points, which each finer grid samples again, with more of the short waves: part of the difference before the last that may
-    be left as error, else 0.
+    blur: largest distance of the true extreme from the extreme over nodes; place: its position in each frame of reference;
+    cell: the spacing there (() and nan for a number that is no extreme); doubt: reason why this grid does not resolve the
+    number, or ""; lost: the value is not even a step towards the next grid's; settled: iteration error of the solution;
+    positive: the number is positive by nature, as a film is; course: largest pressures by parts of the passage (nan: none), if
+    several grids may remove the doubt, else (); swayed: a pressure that this grid does not resolve affects the number; spread:
+    for a number of a distribution, which each finer grid samples again, with more short waves, the part of the last difference
+    but one that may remain as error, else 0.
     """
 
     value: float
@@ -68,7 +67,7 @@ class GridReading:
 
 
 def bar(readings):
-    """(error bar of the last of `readings`, coarsest first, or None where it is not known; why it is not, or "").
+    """(error bar of the last of `readings`, coarsest first, or None if unknown; the reason, or "").
 
     Lost readings, and those before them, do not count.
     """
@@ -97,7 +96,7 @@ def bar(readings):
 
 
 def _left_of_spread(steps, part):
-    """Distance from the limit for a number of a distribution; part: see :class:`GridReading`."""
+    """Remaining error of a number of a distribution; part: see :class:`GridReading`."""
     last, *earlier = (abs(step) for step in steps)
     return max([SPREAD * last, *(part * step for step in earlier[:1])])
 
@@ -113,7 +112,9 @@ def _left(steps, extreme):
 
 
 def _bar_of_passage(known):
-    """(what the bar is at least, why there is none or "") of a number that depends on the highest pressures of a passage."""
+    """(lower limit of the bar, reason why there is none or "") of a number that depends on the highest pressures of a
+    passage.
+    """
     last, parts = known[-1], _parts([reading.course for reading in known[-3:]])
     if not parts:
         return 0.0, last.doubt
@@ -130,47 +131,52 @@ def _bar_of_passage(known):
 
 
 def _rival(pressures):
-    """Why another part of the passage leaves a number unknown; pressures: Pa there on three grids."""
+    """Reason if another part of the passage makes a number unknown; pressures: Pa there on three grids."""
     grown = ", ".join(f"{p / 1e9:.2f}" for p in pressures)
     return Reason(f"the pressure in another part of the passage ({grown} GPa) grows with grid refinement and may become the "
                   "largest", "rival")
 
 
 def _parts(courses):
-    """The pressures of three grids in every part of a passage that all of them have; [] where they are not three."""
+    """Pressures on three grids in every part of a passage that all of them have; [] for fewer grids."""
     if len(courses) < 3 or not courses[-1] or len({len(course) for course in courses}) > 1:
         return []
     return [part for part in zip(*courses) if not any(map(math.isnan, part))]
 
 
 def _halves(first, second, third):
-    """Whether the differences of three grids halve, at least."""
+    """Whether the differences of three grids fall at least by half."""
     return abs(second - first) >= HALVES * abs(third - second)
 
 
 def _may_reach(first, second, third):
-    """Largest pressure expected beyond three grids: the differences continue to fall, by at most GROWS_ON of the last."""
+    """Largest pressure expected beyond three grids: the differences continue to fall; their sum is limited to GROWS_ON of the
+    last.
+    """
     before, last = abs(second - first), abs(third - second)
     return third + min(last / (before / last - 1) if before > last > 0 else math.inf, GROWS_ON * last)
 
 
 def bars(grids):
-    """({name: error bar or None}, {name: why it is None}) of the numbers of the last of `grids`, each {name: GridReading}."""
+    """({name: error bar or None}, {name: reason of None}) of the numbers of the last of `grids`, each {name: GridReading}."""
     found = {name: bar([grid[name] for grid in grids if name in grid]) for name in grids[-1]}
     return {name: size for name, (size, _) in found.items()}, {name: why for name, (size, why) in found.items() if size is None}
 
 
 def estimated_error(values, doubt="", courses=()):
-    """(bar of plain numbers on grids each twice as fine as the one before, or nan, why it is not known or ""); doubt: about the
-    last of them, courses: of all (see :class:`GridReading`), where there are any."""
+    """(bar of plain numbers on grids each twice as fine as the last, or nan; reason if unknown, or "").
+
+    doubt: of the last of them; courses: of all (see :class:`GridReading`), if any.
+    """
     pairs: Any = zip_longest(values, courses, fillvalue=())
     size, why = bar([GridReading(value, doubt=doubt, course=course) for value, course in pairs])
     return (math.nan if size is None else size), why
 
 
 def observed_order(values):
-    """Order by which the last three of `values` (each grid twice as fine as the one before) approach their limit; nan with
-    fewer, or where they do not."""
+    """Observed order with which the last three of `values` (each grid twice as fine as the last) approach their limit; nan with
+    fewer values, or if they do not approach one.
+    """
     if len(values) < 3 or values[-1] == values[-2]:
         return math.nan
     ratio = (values[-2] - values[-3]) / (values[-1] - values[-2])
@@ -178,7 +184,7 @@ def observed_order(values):
 
 
 def parabola_offset(profile, i):
-    """Distance of the extreme of a parabola through three nodes from the value at the middle one, which is an extreme."""
+    """Difference between the extreme of the parabola through three nodes and the middle value, which is an extreme."""
     if not 0 < i < len(profile) - 1:
         return 0.0
     left, middle, right = (float(v) for v in profile[i - 1 : i + 2])

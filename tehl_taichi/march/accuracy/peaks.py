@@ -16,12 +16,13 @@ def peak(field):
 
 
 def unresolved_peak(P, largest=None):
-    """(height over the largest, node) of the highest peak of P (n,) that leaves the largest unknown, height 0 without one: the
-    largest itself where it is narrow, a lower one so sharp that it may overtake it on finer grids.
+    """(height over the largest, node) of the highest peak of P (n,) that makes the largest pressure unknown; height 0 without
+    one.
 
-    The front of a frozen film that ends in a free edge is such a peak: it grows like the inverse square root of the cell, and
-    so does any number that depends on it. largest: that of more moments than this one, whose lower peaks then count where they
-    are narrow (else the largest a moment ago would be its own rival).
+    It is the largest peak itself if it is narrow, or a lower one so sharp that it may exceed it on finer grids. The front of a
+    frozen film that ends in a free edge is such a peak: it grows with the inverse square root of the cell, as does any number
+    that depends on it. largest: over more moments than this one; lower peaks then count only if they are narrow (otherwise the
+    largest peak a moment ago would be its own rival).
     """
     sharp, largest = (SHARP, P.max()) if largest is None else (NARROW, largest)
     top = np.flatnonzero((P[2:-2] > P[1:-3]) & (P[2:-2] >= P[3:-1])) + 2
@@ -36,10 +37,10 @@ def sharpest(p, largest=None):
 
 
 def ripple(field):
-    """(amplitude, first node) of the largest alternation from node to node along the first axis that lasts for WAVE nodes.
+    """(amplitude, first node) of the largest alternation from node to node along the first axis over at least WAVE nodes.
 
-    A sixteenth of the fourth difference is the amplitude of such a wave; that of a smooth field is far smaller, and that of a
-    kink or a spike changes its sign within WAVE nodes.
+    A sixteenth of the fourth difference is the amplitude of such a wave. For a smooth field it is far smaller, and for a kink
+    or a spike it changes sign within WAVE nodes.
     """
     p = np.asarray(field, float)
     if len(p) < WAVE + 4:

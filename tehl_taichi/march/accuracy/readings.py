@@ -1,5 +1,4 @@
-"""Numbers of a run on one grid, for their error bars: values, how far an extreme may lie between the nodes, and
-whether the grid resolves them at all."""
+"""Numbers of a run on one grid, for error bars: values, interpolation error of extremes, and whether the grid resolves them."""
 
 from dataclasses import replace
 
@@ -46,8 +45,9 @@ def highest(shot, a):
 
 
 def doubt(x, height, i, a):
-    """Why a grid with nodes at x (m) cannot know the largest pressure, from :func:`tehl_taichi.march.accuracy.peaks.sharpest`;
-    or ""."""
+    """Reason why a grid with nodes at x (m) does not resolve the largest pressure, from
+    :func:`tehl_taichi.march.accuracy.peaks.sharpest`; or "".
+    """
     if not height:
         return ""
     at_exit = exits(x[i], a)
@@ -55,18 +55,18 @@ def doubt(x, height, i, a):
 
 
 def exits(x, a):
-    """Whether a peak or ripple at x (m) of a contact of half-width a is at its exit."""
+    """Whether a peak or ripple at x (m) is at the exit of a contact of half-width a."""
     return bool(x > EXITS * a)
 
 
 def unresolved(reader, entries, largest, a):
-    """The :func:`doubt` about these entries, by the worst peak of all; largest: pressure of them, Pa."""
+    """The :func:`doubt` about these entries, from the worst peak of all; largest: their largest pressure, Pa."""
     height, at = max(sharpest(reader.fields(n, ("pressure",))["pressure"], largest) for n in entries)
     return doubt(reader.x, height, at, a)
 
 
 def lowest(shot, scene):
-    """Reading of the smallest film of a snapshot, m; one that lies on the floor is the floor's height on every grid."""
+    """Reading of the smallest film of a snapshot, m; a film on its floor has the floor's height on every grid."""
     h = shot.fields["film"]
     i, j = np.unravel_index(h.argmin(), h.shape)
     touches = bool(h[i, j] <= ON_FLOOR * scene.rheology.film_floor * Scales.of(scene).h)
@@ -76,12 +76,14 @@ def lowest(shot, scene):
 
 
 def _place(shot, i):
-    """Position of a node in m, seen from the contact and from the feature, if there is one."""
+    """Position of a node in m, in the frame of the contact and in that of the feature, if there is one."""
     seen = (shot.x[i], shot.x[i] - shot.feature_x)
     return tuple(float(x) for x in seen if np.isfinite(x))
 
 
 def _between(values, i, j):
-    """Largest difference of the extreme of `values` between the nodes from that at node (i, j); rows may end in a mirror."""
+    """Largest difference between the extreme of `values` between the nodes and its value at node (i, j); the first row may be a
+    plane of symmetry.
+    """
     across = np.concatenate([values[i, 1:2], values[i]])
     return parabola_offset(values[:, j], i) + parabola_offset(across, j + 1)

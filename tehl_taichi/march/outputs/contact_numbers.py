@@ -6,17 +6,17 @@ from tehl_taichi.march.step_output import Scalar
 
 
 def drag(s):
-    """Mean of the friction on both bodies, in units of load (p_H of a Hertz unit of area): (int (q_a - q_b) dA)/2."""
+    """Mean friction of both bodies, in units of load (p_H times a Hertz unit of area): (int (q_a - q_b) dA)/2."""
     return 0.5 * abs(float(np.sum(s.weights * (s.stress[0] - s.stress[2])))) / s.scales.p_H
 
 
 def touching(s):
-    """Load where the surfaces touch; most never do."""
+    """Load in touching nodes; usually zero."""
     return float(np.sum(s.weights * s.P * s.touch)) if s.touch.any() else 0.0
 
 
 def touched(s):
-    """Area where the surfaces touch over that of the dry contact, whose mean pressure is pi/4 of its largest (point: 2/3)."""
+    """Touching area over the area of the dry contact, whose mean pressure is pi/4 of its largest (point: 2/3)."""
     dry = s.load / (np.pi / 4 if s.scales.line else 2 / 3)
     return float(np.sum(s.weights * (s.touch > 0))) / dry
 

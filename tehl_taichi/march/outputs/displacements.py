@@ -1,4 +1,4 @@
-"""Displacement of each surface since X = 0, where all features are at their places x."""
+"""Displacement of each surface since X = 0, where all features are at their positions x."""
 
 from tehl_taichi.march.step_output import Scalar, passing
 

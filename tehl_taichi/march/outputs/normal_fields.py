@@ -1,4 +1,4 @@
-"""Pressure, film and where the surfaces touch."""
+"""Pressure, film, and mask of touching nodes."""
 
 import numpy as np
 

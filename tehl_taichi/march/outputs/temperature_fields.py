@@ -1,4 +1,4 @@
-"""Temperatures of the film and of both surfaces, where there are any."""
+"""Temperatures of the film and of both surfaces, in thermal scenes."""
 
 from tehl_taichi.heat.chebyshev import largest
 from tehl_taichi.march.step_output import Field, Scalar, thermal

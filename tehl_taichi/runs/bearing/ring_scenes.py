@@ -54,7 +54,7 @@ def ring_scene(base, changes, name, contact, dry, u_m, srr, passes, choose=False
 
 
 def bodies(changes):
-    """Those changes that belong to the bodies."""
+    """The changes that belong to the bodies."""
     return {key: value for key, value in changes.items() if key.startswith("bodies")}
 
 
