@@ -158,12 +158,15 @@ class FilmHeat:
         self._accept()
         self.T = self.temperature()
 
+    def carried(self):
+        """The part of :meth:`state` that a window takes over: temperatures, and the memory of the bodies."""
+        return {"heat_T": self.T, "heat_memory": self.bodies.memory(), "heat_offset": self.bodies.offset}
+
     def state(self):
         """All that is needed to continue, as arrays."""
-        return {"heat_T": self.T, "heat_T_before": self.columns.nodes(film_tables.TNN),
+        return {**self.carried(), "heat_T_before": self.columns.nodes(film_tables.TNN),
                 "heat_below": self.columns.nodes(film_tables.MSN), "heat_below_before": self.columns.nodes(film_tables.MSNN),
-                "heat_p_before": self.columns.single(film_tables.PNN)[None], "heat_memory": self.bodies.memory(),
-                "heat_offset": self.bodies.offset, "heat_dt_before": self.dt_before}
+                "heat_p_before": self.columns.single(film_tables.PNN)[None], "heat_dt_before": self.dt_before}
 
     def restore(self, state):
         """Continue from a state; the pressure of the last step must be in the table."""

@@ -196,9 +196,11 @@ class Passage:
         return snapshot.take(solved, self.step, time_s, X * self.scales.a,
                              functools.partial(self._state, self.step))
 
-    def _state(self, step):
+    def _state(self, step, carried=False):
         if step != self.step:
             snapshot.gone(step)
+        if carried:
+            return self.heat.carried()
         return {**self._accepted(), **self.parts.state(), **({"double": True} if self.doubled else {})}
 
     def _accepted(self):

@@ -56,7 +56,7 @@ class Snapshot:
     y: np.ndarray
     fields: dict
     scalars: dict
-    make_state: Callable[[], dict]
+    make_state: Callable[..., dict]
     grids: list = field(default_factory=list)
     error: dict = field(default_factory=dict)
     unknown: dict = field(default_factory=dict)
@@ -75,6 +75,12 @@ class Snapshot:
         """State from which a march continues."""
         return self.make_state()
 
+    @property
+    def carried(self):
+        """What a window takes over of the temperatures while this is the newest snapshot, see
+        :meth:`tehl_taichi.heat.temperatures.FilmHeat.carried`."""
+        return self.make_state(carried=True)
+
     def let_go(self, keep):
         """Release all solvers; keep: whether the state is kept."""
         if keep:
@@ -82,7 +88,7 @@ class Snapshot:
         self.make_state = functools.partial(gone, self.step)
 
 
-def gone(step):
+def gone(step, **options):
     raise RuntimeError(f"the state of step {step} is no longer available; read it before the next step")
 
 

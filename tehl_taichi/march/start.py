@@ -51,7 +51,7 @@ def steady_snapshot(scene, scales):
     unsettled = _unsettled(result, scene)
     first = looks.taken(result.solver, result.heat, result.report) if unsettled else looks.newest
     state = snapshot.state_of(result.solver, result.heat, 0)
-    first.make_state = lambda: state
+    first.make_state = lambda carried=False: state
     first.scalars["cycles"], first.unsettled = float(result.work), unsettled
     first.grids, first.domain = result.values, DomainError() if unsettled else domain_error(result.solver)
     first.error, first.unknown, first.parts = _bars(first, scene)

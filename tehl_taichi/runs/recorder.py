@@ -59,7 +59,7 @@ def march_on(saved, state, notify=None, changes=()):
     """March from the last checkpoint of the store (`state`, as :meth:`Store.go_back` returns it) to the end of its scene.
 
     notify(snapshot): called after each step; changes: of the surfaces, see :func:`tehl_taichi.march.passage.march`. One step is
-    written while the next one is computed. Some states stay in `saved.kept_states`, unless that is None. The solver releases
+    written while the next one is computed. States stay in `saved.kept_states`, unless that is None. The solver releases
     the interpreter lock thousands of times per step; it must not wait 5 ms for the writer each time.
     """
     before, total, pending = sys.getswitchinterval(), total_steps(saved.scene), None
@@ -68,6 +68,8 @@ def march_on(saved, state, notify=None, changes=()):
     try:
         with ThreadPoolExecutor(1) as writer:  # leaving it waits for the last write
             for snapshot in march(saved.scene, state, changes):
+                if saved.kept_states:
+                    saved.kept_states.add_heat(snapshot.step, snapshot.carried)
                 if (entry := thinned.of(snapshot)) is not None:
                     keep = entry.state if states.at(entry.step) else None
                     if keep and saved.kept_states:

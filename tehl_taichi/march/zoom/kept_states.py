@@ -1,15 +1,46 @@
-"""States of a march kept in memory, so that it can be followed again from near a step without the steps before."""
+"""States of a march kept in memory: the newest ones of its temperatures, and some whole ones, so that it can be followed again
+from near a step without the steps before."""
+
+from dataclasses import dataclass
 
 import numpy as np
 
-MOST, BYTES = 8, 3e8  # of them, and of memory in all; a thermal one has 11 MB at 257x65x9
+# Of whole states, and of their memory (a thermal one has 11 MB at 257x65x9); of that of the temperatures. To march a run of
+# 128x32x9 once more beside its windows takes 4.5 of their 50 s; its 193 states have 281 MB
+MOST, BYTES, HEAT_BYTES = 8, 1e8, 3e8
+
+
+@dataclass(frozen=True)
+class HeatState:
+    """T (nodes across, ny+1, nx+1) deg C; memory (slots, ny+1, nx+1) of both bodies and the cells that each has moved."""
+
+    T: np.ndarray
+    memory: np.ndarray
+    offset: np.ndarray
+
+    @classmethod
+    def of(cls, state):
+        """Of a state, or of what windows take over of one (:meth:`tehl_taichi.heat.temperatures.FilmHeat.carried`)."""
+        return cls(*(np.array(state[f"heat_{name}"]) for name in cls.__dataclass_fields__))
+
+    @property
+    def bytes(self):
+        """Its memory."""
+        return self.T.nbytes + self.memory.nbytes
 
 
 class KeptStates:
-    """States of :func:`tehl_taichi.march.passage.march` in rising order; the first one stays, the others thin out."""
+    """States of :func:`tehl_taichi.march.passage.march` in rising order; the first one stays, the others thin out. heats: {step:
+    HeatState} of the newest steps."""
 
     def __init__(self, first):
-        self.states = [first]
+        self.states, self.heats = [first], {}
+
+    def add_heat(self, step, carried):
+        """Temperatures of one more step, that are not kept for longer than there is room."""
+        self.heats[step] = newest = HeatState.of(carried)
+        if len(self.heats) > HEAT_BYTES / newest.bytes:
+            del self.heats[min(self.heats)]
 
     def add(self, state):
         """One more."""

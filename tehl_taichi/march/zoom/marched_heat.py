@@ -1,22 +1,11 @@
-"""Temperatures of a run, computed again step by step: stores do not hold what a window needs of them."""
+"""Temperatures of a run as it had them, or computed again step by step: stores do not hold what a window needs of them."""
 
 import functools
-from dataclasses import dataclass
-
-import numpy as np
 
 from tehl_taichi.march.passage import march
+from tehl_taichi.march.zoom.kept_states import HeatState
 
 KEPT = 12  # newest states; a window looks two steps ahead and three back
-
-
-@dataclass(frozen=True)
-class HeatState:
-    """T (nodes across, ny+1, nx+1) deg C; memory (slots, ny+1, nx+1) of both bodies and the cells that each has moved."""
-
-    T: np.ndarray
-    memory: np.ndarray
-    offset: np.ndarray
 
 
 class MarchedHeat:
@@ -25,6 +14,7 @@ class MarchedHeat:
 
     def __init__(self, scene, changes=(), kept=None):
         self.march, self.kept = functools.partial(march, scene, changes=changes), kept
+        self.known = kept.heats if kept else {}
         self.shots, self.states, self.newest = self.march(), {}, -1
         if kept and kept.start:
             self._begin_at(kept.start)
@@ -36,7 +26,9 @@ class MarchedHeat:
             self._begin_at(state)
 
     def at(self, step):
-        """The HeatState of a step, of the newest ones. Raises NotConverged where the run does."""
+        """The HeatState of a step: a kept one, or of the newest ones. Raises NotConverged where the run does."""
+        if step in self.known:
+            return self.known[step]
         while self.newest < step:
             self._advance()
         return self.states[step]
@@ -51,4 +43,4 @@ class MarchedHeat:
 
     def _keep(self, state):
         self.newest = int(state["step"])
-        self.states[self.newest] = HeatState(*(np.array(state[f"heat_{name}"]) for name in ("T", "memory", "offset")))
+        self.states[self.newest] = HeatState.of(state)

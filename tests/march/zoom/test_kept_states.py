@@ -1,8 +1,9 @@
 """States of a march that are kept in memory."""
 
 import numpy as np
+import pytest
 
-from tehl_taichi.march.zoom import kept_states
+from tehl_taichi.march.zoom import kept_states, marched_heat
 from tehl_taichi.march.zoom.kept_states import KeptStates
 
 
@@ -31,3 +32,25 @@ def test_the_newest_before_a_step():
     assert [found.before(step)["step"] for step in (4, 5, 13, 20)] == [0, 5, 9, 14]
     assert found.start["step"] == 0 and KeptStates({"step": 3}).start is None
     assert KeptStates({"step": 3}).before(2) is None
+
+
+def heat(value):
+    return {"heat_T": np.full(4, value), "heat_memory": np.zeros(6), "heat_offset": np.zeros(2)}
+
+
+def test_the_newest_temperatures_are_kept_as_far_as_there_is_room(monkeypatch):
+    monkeypatch.setattr(kept_states, "HEAT_BYTES", 8 * 10 * 3.5)
+    found = KeptStates({"step": 0})
+    for step in range(1, 9):
+        found.add_heat(step, heat(float(step)))
+    assert {step: one.T[0] for step, one in found.heats.items()} == {6: 6.0, 7: 7.0, 8: 8.0}
+
+
+def test_kept_temperatures_are_not_marched_again(monkeypatch):
+    found = KeptStates({"step": 0, **heat(0.0)})
+    found.add_heat(3, heat(3.0))
+    monkeypatch.setattr(marched_heat, "march", lambda *_, **__: iter(()))
+    marched = marched_heat.MarchedHeat(None, kept=found)
+    assert marched.at(0).T[0] == 0.0 and marched.at(3).T[0] == 3.0
+    with pytest.raises(StopIteration):
+        marched.at(2)
