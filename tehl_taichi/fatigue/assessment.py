@@ -156,8 +156,9 @@ def _result(scene, passage, layers, below, alone):
                "pit_angles_deg": list(PIT_ANGLES), **({"contact_alone": alone.summary} if alone else {})}
     counts = index_statistics.weights(passage)
     arrays = {**result_arrays.of_surface(surface, passage, limit, counts), "worst": surface.worst.history(centres)}
-    summary |= {"cycles_above_1": stress_cycles.above(surface.worst.stress, surface.worst.normal, local),
-                "statistics": _statistics(surface, counts, limit)}
+    summary |= {"cycles_above_1": stress_cycles.above(surface.worst.stress, surface.worst.normal, local)}
+    if not passage.worst:
+        summary |= {"statistics": _statistics(surface, counts, limit)}
     peaks = [found.mises for found in layers] + below.mises
     summary["von_mises"] = von_mises.summary(peaks, surface.mises.value, passage.surface, strength)
     points = [found.worst for found in layers[1:]] + below.worst
@@ -173,7 +174,8 @@ def _result(scene, passage, layers, below, alone):
         arrays |= {"findley_stress_contact_alone": alone.f} if alone else {}
         arrays |= result_arrays.of_plane(below.plane) if below.plane else {}
         arrays |= result_arrays.of_limits(strength, depths, below.plane, layers)
-        summary["below"]["statistics"] = _statistics_below(below, counts, passage)
+        if not passage.worst:
+            summary["below"]["statistics"] = _statistics_below(below, counts, passage)
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
                                 "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]

@@ -293,14 +293,15 @@ def circle(steps: ti.i32, a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types
 @ti.func
 def look(S: ti.template(), some: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(),
          b: ti.template(), peaks: ti.template(), out: ti.template(), row, steps, kappa, rule: ti.template(), step0, shrinks,
-         prune):
-    """Find the best plane of a point, by some of its moments first; into its row of `out`, with the planes decided."""
+         prune, least):
+    """Find the best plane of a point, by some of its moments first; into its row of `out`, with the planes decided. Of a point
+    with less than `least` on the grid: that of the grid."""
     low, high = extent(S, row, steps)
     moments = thin(S, some, row, steps, low, high)
     on_grid = scan(S, some, planes, values, a, b, row, moments, 0.5 * (low + high), tie(rule, kappa, step0), rule, prune)
     count = collect(planes, values, peaks, row, on_grid, rule)
     decided = planes.shape[0]
-    for stage in range(2):
+    for stage in range(0 if on_grid < least else 2):
         if stage == 1:
             moments = all_of(some, row, steps)
         for peak in range(count):
@@ -321,7 +322,7 @@ def look(S: ti.template(), some: ti.template(), planes: ti.template(), values: t
 
 @ti.kernel
 def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), step0: ti.f64, shrinks: ti.i32, prune: ti.i32,
-           known: ti.types.ndarray(dtype=ti.f64, ndim=2),
+           least: ti.f64, known: ti.types.ndarray(dtype=ti.f64, ndim=2),
            S: ti.types.ndarray(dtype=ti.f64, ndim=3), planes: ti.types.ndarray(dtype=ti.f64, ndim=2),
            values: ti.types.ndarray(dtype=ti.f64, ndim=2), a: ti.types.ndarray(dtype=ti.f64, ndim=2),
            b: ti.types.ndarray(dtype=ti.f64, ndim=2), peaks: ti.types.ndarray(dtype=ti.f64, ndim=3),
@@ -329,9 +330,9 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
     """out[point] = (f, n_x, n_y, n_z, planes decided) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
     rule: a :class:`tehl_taichi.laws.criteria.criterion.Criterion` whose value may be traced; planes (m, 3): unit normals of the
-    grid; step0: first step, rad, halved `shrinks` times; known (points, 4): value and plane that a search of more moments
-    found, not looked for again where these have as much there (infinite: not known); scratch: values (points, m), a, b, some
-    (points, steps), peaks (points, SHEARED_STARTS, PEAK).
+    grid; step0: first step, rad, halved `shrinks` times; least: see :func:`look`; known (points, 4): value and plane that a
+    search of more moments found, not looked for again where these have as much there (infinite: not known); scratch: values
+    (points, m), a, b, some (points, steps), peaks (points, SHEARED_STARTS, PEAK).
     """
     ti.loop_config(block_dim=8)
     for row in range(points):
@@ -340,7 +341,7 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
             out[row, k] = known[row, k]
         for turn in range(2):  # the known plane, then what is found
             if turn == 1:
-                look(S, some, planes, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune)
+                look(S, some, planes, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune, least)
             if out[row, 0] < 1e300:
                 # by all moments: no other plane has more than the known one has, and a peak may have moved beyond REACH
                 n = vec3(out[row, 1], out[row, 2], out[row, 3])

@@ -23,12 +23,13 @@ CLOSE = 0.9      # points within this of the worst of a rung are followed betwee
 
 @dataclass(frozen=True)
 class Profile:
-    """Findley stress f (depths, x') Pa at depths (m), the worst point of all depths, the largest von Mises stress."""
+    """Findley stress f (depths, x') Pa at depths (m), the worst point of all depths, the largest von Mises stress
+    (if wanted)."""
 
     depths: np.ndarray
     f: np.ndarray
     worst: WorstPoint
-    mises: von_mises.VonMisesPeak
+    mises: von_mises.VonMisesPeak | None
 
 
 def ladder(passage):
@@ -71,10 +72,11 @@ def _profiles(passage, depths, histories, windows, row):
 def _searched(passage, depths, histories, known):
     """(f, normals) of all points of histories (depths, x', moments, 6) Pa, all at once where they have one kappa; known: see
     :func:`tehl_taichi.fatigue.findley.search`."""
-    kappas, criterion = passage.strength.kappas(depths), passage.scene.fatigue.criterion
+    kappas, criterion, strength = passage.strength.kappas(depths), passage.scene.fatigue.criterion, passage.strength
     each, points = histories.shape[1], histories.reshape(-1, *histories.shape[2:])
     if len(set(kappas)) == 1:
-        return findley.search(points, kappas[0], criterion=criterion, known=known)
+        worst = passage.worst and len(set(strength.shares(depths))) == 1  # else another depth may be worse by its limit
+        return findley.search(points, kappas[0], criterion=criterion, known=known, worst=worst)
     parts = [slice(n * each, (n + 1) * each) for n in range(len(kappas))]
     found = [findley.search(points[part], kappa, criterion=criterion, known=known and [values[part] for values in known])
              for part, kappa in zip(parts, kappas)]
@@ -97,7 +99,7 @@ def _profile(passage, depths, histories, f, row):
     compared = f * np.array(strength.shares(depths))[:, None]
     depth, point, *rest = _refined(strength, logs, histories, compared, search)
     worst = WorstPoint(depth, float(passage.x[point]), y, *rest, strength.at(depth))
-    return Profile(depths, f, worst, _mises(passage, logs, histories, y))
+    return Profile(depths, f, worst, _mises(passage, logs, histories, y) if passage.steel else None)
 
 
 def _mises(passage, logs, histories, y):

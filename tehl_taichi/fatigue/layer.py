@@ -21,8 +21,10 @@ class EarlyLayer:
 
 @dataclass(frozen=True)
 class Layer:
-    """Results at one depth: maps (nx, rows), the worst point, the largest von Mises stress, and the EarlyLayer of the
-    early moments where it is wanted. cycles: above the limit per passage, nan at points that are not in the sample."""
+    """Results at one depth: maps (nx, rows), the worst point, the largest von Mises stress (if wanted), and the EarlyLayer of
+    the early moments where it is wanted. cycles: above the limit per passage, nan at points that are not in the sample. Of a
+    passage whose worst point alone is wanted f is as :func:`tehl_taichi.fatigue.findley.search` gives it, sigma1 is nan.
+    """
 
     depth: float
     f: np.ndarray
@@ -31,25 +33,25 @@ class Layer:
     sigma1: np.ndarray
     cycles: np.ndarray
     worst: WorstPoint
-    mises: von_mises.VonMisesPeak
+    mises: von_mises.VonMisesPeak | None
     early: EarlyLayer | None
 
 
 def layer(scene, passage, depth, progress, early):
     """Find a Layer: stresses and search of all points at a depth (m). early: moments that are searched apart, or None."""
     parts, worst, peaks, sooner = [], None, [], _Early(scene, passage, depth, early)
-    counted = index_statistics.sample(index_statistics.weights(passage))
+    counted = index_statistics.sample(index_statistics.weights(passage)) & (not passage.worst)
     local = passage.strength.at(depth)
     for rows, history in _blocks(scene, passage, depth, progress):
-        f, normals = findley.search(history, local.kappa, criterion=local.criterion, notify=progress)
+        f, normals = findley.search(history, local.kappa, criterion=local.criterion, notify=progress, worst=passage.worst)
         shape = passage.x.size, rows.stop - rows.start
         cycles = _cycles(history, normals, counted[:, rows].ravel(), local)
-        tension = von_mises.largest(history, findley.largest_principal)
+        tension = np.full(len(f), np.nan) if passage.worst else von_mises.largest(history, findley.largest_principal)
         parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), tension, cycles)])
         worst = worse(worst, passage.places(depth, rows), history, f, normals, local)
-        peaks.append(von_mises.peak(history, passage.places(depth, rows)))
+        peaks += [von_mises.peak(history, passage.places(depth, rows))] if passage.steel else []
         sooner.add(rows, history, (f, normals))
-    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, max(peaks), sooner.found)
+    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, max(peaks, default=None), sooner.found)
 
 
 def early_layer(scene, passage, depth, progress, early):
@@ -80,7 +82,7 @@ class _Early:
         if self.early is None:
             return
         places = self.passage.places(self.depth, rows)
-        f, self.worst = over_some(history, self.early, self.passage.strength.at(self.depth), places, known, self.worst)
+        f, self.worst = over_some(history, self.early, self.passage, self.depth, places, known, self.worst)
         self.parts.append(f.reshape(self.passage.x.size, -1))
 
     @property

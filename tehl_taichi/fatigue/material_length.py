@@ -24,6 +24,7 @@ def part(scene, surface, reader, centres, progress):
     """Numbers of the search of one body by averaged stresses, "averaged" of its summary; centres: of the first feature, m;
     the others as those of :func:`tehl_taichi.fatigue.assessment.run`."""
     passage = StressHistories(scene, averaged_reader(reader, scene.fatigue.length), np.asarray(centres), surface=surface)
+    passage.worst, passage.steel = True, False
     progress = PassProgress.of(progress, scene, passage)
     layers = [layer(scene, passage, depth, progress, None) for depth in (0.0, *scene.fatigue.listed)]
     deep = depth_search.search(scene, passage, layers, None, progress).worst if scene.fatigue.depths else []

@@ -73,15 +73,15 @@ def worse(worst, places, history, f, normals, local):
     return WorstPoint(*places(top), f[top], history[top].copy(), normals[top], local)
 
 
-def over_some(history, moments, local, places, known, worst=None):
+def over_some(history, moments, passage, depth, places, known, worst=None):
     """(stress of every point, Pa, worst point or the one so far) of some of the moments; known: (f, normals) of all of them.
     Few points at once: a choice of moments is a copy of their histories."""
-    f = np.empty(len(history))
+    f, local = np.empty(len(history)), passage.strength.at(depth)
     for first in range(0, len(history), AT_ONCE):
         points = slice(first, first + AT_ONCE)
         part = history[points, moments]
         whole = [values[points] for values in known] if known else None
-        f[points], normals = findley.search(part, local.kappa, criterion=local.criterion, known=whole)
+        f[points], normals = findley.search(part, local.kappa, criterion=local.criterion, known=whole, worst=passage.worst)
         worst = worse(worst, lambda n, first=first: places(first + n), part, f[points], normals, local)
     return f, worst
 

@@ -14,6 +14,7 @@ from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.march.accuracy.domain_error import widened
 from tehl_taichi.march.accuracy.error_bars import bars
 from tehl_taichi.march.zoom import zoomed_passage
+from tehl_taichi.march.zoom.read_once import ReadOnce
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader, extreme
 from tehl_taichi.runs import zoom_need, zoomed_points
 from tehl_taichi.runs.progress import ZOOM
@@ -56,16 +57,17 @@ def levels(saved, progress):
     found = zoomed_passage.passages(scene, saved, factors, functools.partial(progress.stage, ZOOM),
                                     zoom_need.until(saved))
     saved.kept_states = None
-    return [ZoomLevel(one, ZoomedReader(saved, one, scene.symmetric)) for one in found]
+    run = ReadOnce(saved)
+    return [ZoomLevel(one, ZoomedReader(run, one, scene.symmetric, worst=one is not found[-1])) for one in found]
 
 
 def search(saved, found, alone, progress):
     """Search the fatigue of every level, of the points that matter in `alone`, the SearchResult of the run. Returns ({surface:
     summary}, arrays) of the finest."""
-    results = []
+    results, ends = [], zoomed_points.ends(saved.scene, alone)
     for level in reversed(found):  # the finest first, whose stresses by the heat of the run the others take over
         level.reader.kept_heat = found[-1].reader.kept_heat
-        results.append(_searched(saved, level, zoomed_points.ends(saved.scene, alone), progress))
+        results.append(_searched(saved, level, ends, progress))
         level.searches = zoomed_points.completed(results[-1].summaries, alone.summaries)
     return found[-1].searches, zoomed_points.deeper(results[0], alone).to_arrays()
 

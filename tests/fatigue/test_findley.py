@@ -181,6 +181,29 @@ def test_planes_of_more_moments_are_kept_where_these_have_as_much(taichi_cpu):
     assert (alone[0][~same] < known[0][~same] * (1 - 1e-9)).all()
 
 
+@pytest.mark.parametrize("criterion", ["findley", "dang-van", "matake"])
+def test_the_worst_alone_is_that_of_all_and_takes_a_part_of_the_planes(taichi_cpu, criterion):
+    h, few, all_ = passages(60, 40), np.zeros(60), np.zeros(60)
+    f, normals = findley.search(h, 0.3, criterion=criterion, decided=all_)
+    worst, planes = findley.search(h, 0.3, criterion=criterion, decided=few, worst=True)
+    near = f >= 0.9 * f.max()
+    np.testing.assert_array_equal(worst[near], f[near])
+    np.testing.assert_array_equal(planes[near], normals[near])
+    left_out = np.isnan(planes[:, 0])
+    assert (worst[left_out] < 0.9 * f.max()).all() and (worst <= f).all()
+    if criterion != "matake":  # whose shear decides the plane, not its value
+        assert left_out.sum() > 20 and few.sum() < 0.5 * all_.sum()
+
+
+def test_fewer_moments_search_the_points_that_the_worst_alone_left_out(taichi_cpu):
+    h = passages(60, 40)
+    known, part = findley.search(h, 0.3, worst=True), h[:, 20:]
+    alone, kept = findley.search(part, 0.3), findley.search(part, 0.3, known=known)
+    left_out = np.isnan(known[1][:, 0])
+    np.testing.assert_array_equal(kept[0][left_out], alone[0][left_out])
+    np.testing.assert_array_equal(kept[1][left_out], alone[1][left_out])
+
+
 @pytest.mark.parametrize("criterion", ["matake", "dang-van"])
 def test_criteria_that_fewer_moments_may_raise_keep_nothing(taichi_cpu, criterion):
     h = passages(10, 40)

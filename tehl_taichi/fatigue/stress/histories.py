@@ -32,12 +32,13 @@ class StressHistories:
 
     reader: x, y (m), time (s), len, feature_x(n) (m), fields(n, names) in SI; entry 0 is the steady start; positions (m): the
     first feature's at every entry; its `searched`, where it has one: {surface: ((x' from, to), (y from, to), (depth from, to))
-    m}, of the points to search; window: half width (in a) of the part around one small feature; surface: whose points
+    m}, of the points to search; its `worst`: whether the worst of these points is all that is wanted; window: half width (in a) of the part around one small feature; surface: whose points
     (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`), that of the first feature where nothing else is said.
     """
 
     block = 16  # entries whose stresses are found at once
     deepest = np.inf  # depth down to which points are searched, m
+    worst, steel = False, True  # whether the worst point is all that is wanted, and whether von Mises stresses are
     left = None  # by plastic flow: a :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`
 
     def __init__(self, scene, reader, positions, window=WINDOW, surface=None):
@@ -45,6 +46,7 @@ class StressHistories:
         self.surface, self.a = surface or scene.reference, Scales.of(scene).a
         self.strength = Strength(scene.fatigue, self.surface)
         self.loads_of = self._names()
+        self.worst = getattr(reader, "worst", False)
         self.left = getattr(reader, "residual_fields", {}).get(self.surface.name)
         self.path, centres = (float(positions[0]), float(positions[-1])), self.surface.pace * positions
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)

@@ -25,6 +25,7 @@ REACH = 9.0  # waves with k z beyond this do not reach the depth z (exp(-9) = 1e
 WEAK = 1e-4  # waves below this share (`weak`) of the strongest are left out
 CHUNK = 256  # waves convolved at once
 PARTS = np.array([0, 1 / 64, 1 / 16, 1 / 4, 1])  # of the newest step: near the surface the answer to it is quick
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(3)  # of the means over an age
 
 
 def step_stresses(k, z, diffusivity, nu, t):
@@ -68,6 +69,10 @@ class ThermalBelow(SurfaceHeat):
         self.k = np.hypot(self.kx, self.ky)
         self.shallowest = shallowest
         self.passed = self._passed(spectra[:, self.ix, self.iy].T)
+        later = np.exp(-2j * np.pi * np.arange(self.size) / self.size).astype(np.complex64)
+        before, now = _means(self._angle[:, None], 0.0, 1.0)
+        self.before_passed, self.far_passed = later * self.passed, (before * later + now) * self.passed
+        self.means = [_means(self._angle[:, None], *ends) for ends in zip(PARTS[:-1], PARTS[1:])]
 
     def _passed(self, waves):
         """Transform in time of the temperatures in the frame of the body, before which the contact moves on."""
@@ -81,29 +86,28 @@ class ThermalBelow(SurfaceHeat):
         return self.kx * self.speed * self.dt
 
     def _responses(self, depth, each=map):
-        """(cut, (waves, 4, size)): transforms in time of ss, tt, zz, sz of some waves (without their way back), those of one kx
-        together; each: applies a function to the items of a list."""
+        """(cut, (answers (waves, 6, size), newest (waves, 2, 4))) of some waves, those of one kx together: transforms in time
+        (without their way back) of ss, tt, zz, sz by all but the newest step, of the temperature before that step, and of the
+        one at its end; what the latter two add to ss, tt, zz, sz within that step. each: applies a function to the items of a
+        list."""
         reached = np.flatnonzero(self.k * depth < REACH)
         reached = reached[np.argsort(self.k[reached], kind="stable")]  # waves of one cut take few rows of the table
         cuts = [np.sort(reached[start : start + CHUNK]) for start in range(0, reached.size, CHUNK)]
         table = WaveTable.of(self.k[reached], lambda k: self._answers(k, depth))
         for first in range(0, len(cuts), WORKERS):  # not more of them at once: there may be 100, of 8 MB each
             some = cuts[first : first + WORKERS]
-            # each wave's four in one piece, as :meth:`rows` takes them
-            yield from zip(some, each(lambda cut: np.multiply(self._kernels(table, cut).swapaxes(0, 1),
-                                                              self.passed[cut][:, None], order="C"), some))
+            yield from zip(some, each(lambda cut: self._answers_of(table, cut), some))
 
-    def _kernels(self, table, cut):
-        """(4, waves, size): what temperatures, linear over a step in the frame of the contact, do from then on; within the
-        newest step the parts PARTS of it count by their age."""
-        (out, newest), angle = table(self.k[cut]), self._angle[cut, None]
-        later = np.exp(-2j * np.pi * np.arange(self.size) / self.size).astype(np.complex64)
-        before, now = _means(angle, 0.0, 1.0)
-        out *= before * later + now
-        before, now = (sum(newest[..., [n]] * means for n, means in enumerate(parts))
-                       for parts in zip(*(_means(angle, *ends) for ends in zip(PARTS[:-1], PARTS[1:]))))
-        out += before * later + now
-        return out
+    def _answers_of(self, table, cut):
+        """Answers and newest of :meth:`_responses`. Temperatures are linear over a step in the frame of the contact; within the
+        newest one the parts PARTS of it count by their age."""
+        kernels, newest = table(self.k[cut])
+        out = np.empty((cut.size, 6, self.size), np.complex64)  # each wave's six in one piece, as :meth:`rows` takes them
+        for n, kernel in enumerate(kernels):
+            np.multiply(kernel, self.far_passed[cut], out=out[:, n])
+        out[:, 4], out[:, 5] = self.before_passed[cut], self.passed[cut]
+        shares = [sum(newest[..., n] * means[cut, 0] for n, means in enumerate(parts)) for parts in zip(*self.means)]
+        return out, np.stack(shares).transpose(2, 0, 1)
 
     def _answers(self, k, depth):
         """Stresses of waves k (n,) from a temperature that changes by 1: (4, n, size), the transform in time of what each step
@@ -135,8 +139,9 @@ class ThermalBelow(SurfaceHeat):
         out = np.zeros((columns, len(rows) * 6, self.size), np.complex64)
         both = np.array([[w.row_weights(row, odd)[self.iy] for odd in (False, True)] for row in rows])
         weights = both[:, np.array(ODD, int)].astype(np.complex64).transpose(2, 0, 1)  # (waves, rows, 6)
-        for cut, parts in self._responses(depth):
-            adds = (self._turns(cut)[:, :, None] * weights[cut][:, None]).reshape(cut.size, 4, -1)
+        for cut, (parts, newest) in self._responses(depth):
+            turns = _with_newest(self._turns(cut), newest)
+            adds = (turns[:, :, None] * weights[cut][:, None]).reshape(cut.size, 6, -1)
             ends = [*np.flatnonzero(np.diff(self.ix[cut], prepend=-1)), cut.size]
             for first, end in zip(ends[:-1], ends[1:]):  # the waves of one kx
                 out[self.ix[cut[first]]] += _rows_of(adds[first:end]).T @ _rows_of(parts[first:end])
@@ -150,8 +155,9 @@ class ThermalBelow(SurfaceHeat):
         ny+1), at `depth`."""
         w, held = self.waves, np.zeros((6, self.k.size, self.entries), np.complex64)
         with ThreadPoolExecutor(WORKERS) as pool:
-            for cut, parts in self._responses(depth, pool.map):
-                held[:, cut] = self._back((self._turns(cut).swapaxes(1, 2) @ parts).swapaxes(0, 1), self.kx[cut])
+            for cut, (parts, newest) in self._responses(depth, pool.map):
+                turns = _with_newest(self._turns(cut), newest)
+                held[:, cut] = self._back((turns.swapaxes(1, 2) @ parts).swapaxes(0, 1), self.kx[cut])
 
         def fields(entry, rows=slice(None)):
             out = []
@@ -167,16 +173,20 @@ class ThermalBelow(SurfaceHeat):
 ODD = (False, False, False, True, False, True)  # about the first row of a mirrored domain: xy and yz
 
 
+def _with_newest(turns, newest):
+    """(waves, 6, 6): turns (waves, 4, 6), and those of the newest step (waves, 2, 4)."""
+    return np.concatenate([turns, newest @ turns], axis=1)
+
+
 def _rows_of(array):
-    """(n, 4, m) as (n 4, m)."""
+    """(n, 6, m) as (n 6, m)."""
     return array.reshape(-1, array.shape[-1])
 
 
 def _means(angle, low, high):
     """Means over the ages from low to high (of a step) of what is left of the temperature before the step, and of the one at
     its end, in the phase of its end: (waves, 1)."""
-    nodes, weights = np.polynomial.legendre.leggauss(3)
-    age = low + (high - low) * (nodes + 1) / 2
-    turn = np.exp(-1j * angle * age) * weights / 2
+    age = low + (high - low) * (NODES + 1) / 2
+    turn = np.exp(-1j * angle * age) * WEIGHTS / 2
     found = (age * turn).sum(axis=1, keepdims=True) * np.exp(1j * angle), ((1 - age) * turn).sum(axis=1, keepdims=True)
     return [means.astype(np.complex64) for means in found]

@@ -30,8 +30,8 @@ class HeatState:
 
 
 class KeptStates:
-    """States of :func:`tehl_taichi.march.passage.march` in rising order; the first one stays, the others thin out. heats: {step:
-    HeatState} of the newest steps."""
+    """States of :func:`tehl_taichi.march.passage.march` in rising order; the first one stays, the others thin out. heats:
+    {step: HeatState} of the newest steps."""
 
     def __init__(self, first):
         self.states, self.heats = [first], {}

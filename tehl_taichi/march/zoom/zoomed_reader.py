@@ -10,11 +10,12 @@ EXTREMES = {"p_max_Pa": ("pressure", np.max), "h_min_m": ("film", np.min)}  # nu
 
 class ZoomedReader:
     """As :class:`tehl_taichi.fatigue.stress.histories.StressHistories` takes it: fields of `reader`, whose nodes are `factor`
-    times as far apart, with those of the :class:`tehl_taichi.march.zoom.zoomed_passage.ZoomedPassage` in them."""
+    times as far apart, with those of the :class:`tehl_taichi.march.zoom.zoomed_passage.ZoomedPassage` in them; worst: whether
+    the worst points of its fatigue are all that is wanted."""
 
-    def __init__(self, reader, zoomed, mirrored):
+    def __init__(self, reader, zoomed, mirrored, worst=False):
         self.base, self.zoomed, w, self.searched = reader, zoomed, zoomed.window, {}
-        self.averaged, self.kept_heat = 0.0, {}
+        self.averaged, self.kept_heat, self.worst = 0.0, {}, worst
         self.residual_fields = getattr(reader, "residual_fields", {})
         self.window = Extent(w.factor, w.nx + 1, w.ny + 1, w.row)
         self.time, self.feature_x = reader.time, reader.feature_x

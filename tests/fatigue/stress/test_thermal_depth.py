@@ -120,8 +120,8 @@ def test_rows_are_rows_of_the_whole(mirrored, row):
 
 def test_any_number_of_threads_gives_the_same_bits(monkeypatch):
     """And works on no more chunks of waves than there are threads before they are taken."""
-    found, kernels, made = [], td.ThermalBelow._kernels, []
-    monkeypatch.setattr(td.ThermalBelow, "_kernels", lambda *given: (made.append(1), kernels(*given))[1])
+    found, kernels, made = [], td.ThermalBelow._answers_of, []
+    monkeypatch.setattr(td.ThermalBelow, "_answers_of", lambda *given: (made.append(1), kernels(*given))[1])
     monkeypatch.setattr(td, "CHUNK", 20)
     for count in (1, 3):
         monkeypatch.setattr(td, "WORKERS", count)
