@@ -32,8 +32,9 @@ class StressHistories:
 
     reader: x, y (m), time (s), len, feature_x(n) (m), fields(n, names) in SI; entry 0 is the steady start; positions (m): the
     first feature's at every entry; its `searched`, where it has one: {surface: ((x' from, to), (y from, to), (depth from, to))
-    m}, of the points to search; its `worst`: whether the worst of these points is all that is wanted; window: half width (in a) of the part around one small feature; surface: whose points
-    (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`), that of the first feature where nothing else is said.
+    m}, of the points to search; its `worst`: whether the worst of these points is all that is wanted; window: half width (in
+    a) of the part around one small feature; surface: whose points (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`),
+    that of the first feature where nothing else is said.
     """
 
     block = 16  # entries whose stresses are found at once
