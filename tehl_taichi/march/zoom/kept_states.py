@@ -20,12 +20,12 @@ class HeatState:
 
     @classmethod
     def of(cls, state):
-        """Of a state, or of what windows take over of one (:meth:`tehl_taichi.heat.temperatures.FilmHeat.carried`)."""
+        """HeatState of a state, or of its part that :meth:`tehl_taichi.heat.temperatures.FilmHeat.carried` gives."""
         return cls(*(np.array(state[f"heat_{name}"]) for name in cls.__dataclass_fields__))
 
     @property
     def bytes(self):
-        """Its memory."""
+        """Size of both arrays."""
         return self.T.nbytes + self.memory.nbytes
 
 
