@@ -1,4 +1,4 @@
-"""A number that an option takes, bare or with a unit."""
+"""Numeric options, with or without a unit."""
 
 from typing import Any
 
@@ -8,7 +8,7 @@ AUTO = "auto"  # as in tehl_taichi.values.quantity, which takes longer to import
 
 
 def amount(text) -> Any:
-    """The number of an option; text with a unit, as in "3.8 mm", stays text, which is read where the quantity is known."""
+    """Number of an option; a text with a unit, such as "3.8 mm", stays text and is converted where the quantity is known."""
     try:
         return float(text)
     except ValueError:
@@ -16,12 +16,12 @@ def amount(text) -> Any:
 
 
 def whole_or_auto(text) -> Any:
-    """The factor of a zoom window: a whole number or "auto"; other text stays, which the scene refuses."""
+    """Factor of a zoom window: a whole number or "auto"; the scene refuses other texts."""
     return int(text) if text.strip().isdigit() else text.strip()
 
 
 def metres(option, value):
-    """A length in m that no quantity of a scene declares; 0 where the option is not used. Raises SceneError."""
+    """Length in m of an option without a scene key; 0 if the option is not used. Raises SceneError."""
     from tehl_taichi.values import checks, units
 
     found = 0.0 if value is None else units.in_unit(option, value, "m")
@@ -30,10 +30,10 @@ def metres(option, value):
 
 
 def number(about, default=None) -> Any:
-    """The option of a number, bare or with a unit; about: its help; default: where it is not used."""
+    """Option for a number, with or without a unit; about: its help; default: value without the option."""
     return typer.Option(default, parser=amount, metavar="NUMBER", help=about)
 
 
 def also_number(about) -> Any:
-    """Such an option whose function has the default."""
+    """Such an option without a default here: the function's default applies."""
     return typer.Option(parser=amount, metavar="NUMBER", help=about)

@@ -40,7 +40,7 @@ def animate(
 
 
 class FrameBar:
-    """Progress on stderr: a bar in a terminal, a line for every quarter elsewhere."""
+    """Progress on stderr: a bar in a terminal, otherwise a line for every quarter."""
 
     def __init__(self, quiet):
         self.quiet, self.bar = quiet, None

@@ -1,4 +1,4 @@
-"""tehl bearing, tehl roller: loads and contacts of a rolling bearing from its catalogue or its drawing."""
+"""tehl bearing, tehl roller: loads and contacts of a rolling bearing from catalogue or drawing data."""
 
 from typing import Optional
 
@@ -85,7 +85,7 @@ def _compute(which, context, own, scene, figure, as_json, quiet, curves, format,
 
 
 def _found(which, own, live, oil, temperature, thermal, grid, set_, out, **shared):
-    """The bearing that the options describe."""
+    """Compute the bearing that the options describe."""
     import tehl_taichi as tehl
 
     dimensions = {**own, **{key: shared.pop(key) for key in DIMENSIONS}}
@@ -94,7 +94,7 @@ def _found(which, own, live, oil, temperature, thermal, grid, set_, out, **share
 
 
 def print_bearing(found):
-    """Print the tables of a bearing, its answer, what was assumed, and where its scenes are."""
+    """Print the tables of a bearing, its answer, its assumptions, and the paths of its scenes."""
     from tehl_cli.tables import list_table, warning_lines
 
     from tehl_taichi.report import bearing_page

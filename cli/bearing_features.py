@@ -1,4 +1,4 @@
-"""Features of a raceway or a cam as `--dent` and `--scan` give them."""
+"""Features of a raceway or a cam from `--dent` and `--scan`."""
 
 from tehl_cli.amount import amount, metres
 
@@ -6,7 +6,7 @@ DENT = "DEPTH,WIDTH,rim=HEIGHT in m, as in 10e-6,0.3e-3,rim=1.2e-6 or 10um,0.3mm
 
 
 def dent_of(text):
-    """The Feature of a --dent. Raises SceneError."""
+    """Feature of a --dent. Raises SceneError."""
     from tehl_taichi.scene.feature import Feature
 
     plain, named = _parts(text)
@@ -30,7 +30,7 @@ def _parts(text):
 
 
 def scan_of(path, unit, pixel):
-    """The Feature of a --scan: a map or a profile with its form removed and its rim faded out."""
+    """Feature of a --scan: a map or a profile with its form removed and its rim faded out."""
     from tehl_taichi.scene.feature import Feature
     from tehl_taichi.scene.scan_scene import scanned
 
@@ -38,7 +38,7 @@ def scan_of(path, unit, pixel):
 
 
 def feature_of(dent, scan, unit, pixel):
-    """The Feature of --dent or --scan, None without."""
+    """Feature of --dent or --scan, None without them."""
     from tehl_taichi.errors import SceneError
 
     if dent is not None and scan is not None:

@@ -1,4 +1,4 @@
-"""The options that `tehl bearing` and `tehl roller` share."""
+"""Options that `tehl bearing` and `tehl roller` share."""
 
 from pathlib import Path
 from typing import Annotated, List, Optional
@@ -19,7 +19,7 @@ def loads(
     outer_speed: Annotated[Optional[float], also_number("speed of the outer ring, 1/min (default: 0; negative: against the "
                                                         "inner ring)")] = None,
 ):
-    """Loads and speeds."""
+    """Options for loads and speeds."""
 
 
 def contacts(
@@ -62,4 +62,4 @@ def contacts(
     curves: Annotated[bool, Option("--live/--no-live", help="draw p, h and T along y = 0 in the terminal (with --workers "
                                                             "1)")] = True,
 ):
-    """Contacts, scenes, results and progress."""
+    """Options for contacts, scenes, results and progress."""

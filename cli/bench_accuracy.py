@@ -56,7 +56,7 @@ def accuracy(
 
 
 def _check_package():
-    """Raises StoreError where the errors cannot be written into the package."""
+    """Raise StoreError if the errors cannot be written into the package."""
     from tehl_taichi.errors import StoreError
     from tehl_taichi.scene import grid_for_error
 
@@ -126,7 +126,7 @@ def _short(value, factor):
 
 
 def _errors(rows):
-    """(columns, a line per run with its error in each quantity; * where no faster run of the family has a smaller one)."""
+    """(columns, a line per run with its error in each quantity; * if no faster run of the family has a smaller error)."""
     quantities = list(dict.fromkeys(row["quantity"] for row in rows))
     runs: dict[tuple, dict] = {}
     for row in rows:

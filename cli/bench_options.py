@@ -6,7 +6,7 @@ import typer
 
 
 def folder(usual, says):
-    """Option of a folder; one that is a file or cannot be written is refused before the work."""
+    """Option for a folder; a file or a folder without write permission is refused before the work."""
     return typer.Option(Path(usual), file_okay=False, writable=True, help=says)
 
 
@@ -20,7 +20,7 @@ WORKERS = typer.Option(1, help="number of processes, which share the cores")
 
 
 def cores():
-    """Cores that this process may use."""
+    """Number of cores available to this process."""
     from tehl_taichi.engine.cores import available
 
     return available()

@@ -1,4 +1,4 @@
-"""The tables of the pages in docs: a suite replaces its own, between two marks, and nothing else."""
+"""Result tables on pages of the documentation: a suite replaces only its own table, between two marks."""
 
 import re
 import shlex
@@ -13,18 +13,20 @@ FOLDER = "--out"  # nor does this one, which has a value
 
 
 def of(name):
-    """The page with the table of a suite."""
+    """Page with the table of a suite."""
     return PAGES.get(name, PAGE)
 
 
 def check(name):
-    """Raises StoreError where the page has no place for the table of a suite."""
+    """Raise StoreError if the page has no place for the table of a suite."""
     _around(name)
 
 
 def write(name, columns, rows, keys=0):
-    """Replace the table of a suite; rows: texts. keys: number of the first cells that name a row, where rows that are not
-    among these stay. Raises StoreError."""
+    """Replace the table of a suite. Raises StoreError.
+
+    rows: texts; keys: number of leading cells that identify a row; old rows that are not among the new ones stay.
+    """
     from tehl_taichi.disk import files
 
     before, now, after = _around(name)
@@ -37,14 +39,14 @@ def write(name, columns, rows, keys=0):
 
 
 def _merged(old, new, keys):
-    """Rows of texts: the old ones with the new ones in their places, further ones behind."""
+    """Old rows with the new ones in their places, further new ones at the end."""
     found = {tuple(row[:keys]): row for row in new} if keys else {}
     known = [tuple(row[:keys]) for row in old]
     return [found.get(key, row) for key, row in zip(known, old)] + [row for row in new if tuple(row[:keys]) not in known]
 
 
 def _rows(text):
-    """Rows of cells of the table in a text, its names and rule first."""
+    """Rows of cells of the table in a text, without its head."""
     lines = [line.strip()[1:-1] for line in text.splitlines() if line.startswith("|")]
     return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)] for line in lines]
 
@@ -54,7 +56,7 @@ def _cell(text):
 
 
 def _around(name):
-    """The page up to the mark at which the table of a suite begins, that table, and from the mark at which it ends."""
+    """(page up to the start mark of a suite's table, the table, page from its end mark)."""
     from tehl_taichi.disk import files
     from tehl_taichi.errors import StoreError
 
@@ -69,7 +71,7 @@ def _around(name):
 
 
 def _caption(more=""):
-    """Command, version, commit, machine and date; more: a sentence behind them."""
+    """Caption: command, version, commit, machine and date; more: a further sentence."""
     from tehl_taichi.profiles import measure
 
     from tehl_taichi import __version__
@@ -81,7 +83,7 @@ def _caption(more=""):
 
 
 def _asked(words):
-    """The words of a command that change a figure."""
+    """Words of a command that affect a figure."""
     after_folder = {at + 1 for at, word in enumerate(words) if word == FOLDER}
     return [word for at, word in enumerate(words)
             if word not in (*OWN, FOLDER) and at not in after_folder and not word.startswith(f"{FOLDER}=")]

@@ -57,7 +57,7 @@ def stability(
 
 
 def _say_idle(context, confirm, drawn):
-    """Report options that change nothing beside the others."""
+    """Report options without effect beside the others."""
     if confirm:
         say_idle(context, "--confirm takes all starts, each in its own precision", "only_starts", "precision")
         say_idle(context, "docs/performance.md has no table that --confirm writes", "write")
@@ -68,7 +68,7 @@ def _say_idle(context, confirm, drawn):
 
 
 def _outcomes(chosen, precision, workers, threads):
-    """Run the scenes; their outcomes in the order of the scenes."""
+    """Run the scenes; returns their outcomes in the order of the scenes."""
     from tehl_taichi.profiles.stability import run
 
     found = []
@@ -87,12 +87,12 @@ def _parts(outcomes, listed):
 
 
 def _verdicts(outcomes):
-    """{verdict: how many scenes end so}."""
+    """{verdict: number of scenes}."""
     return {verdict: sum(o.verdict == verdict for o in outcomes) for verdict in ("converged", "refused", "stopped", "failed")}
 
 
 def _finish(results, found, title, as_json):
-    """Print the table and the counts, write the files, and end with the exit code of the suite."""
+    """Print the table and the counts, write the files, and exit with the code of the suite."""
     from tehl_taichi.profiles import stability as suite
 
     counts = {**_verdicts(found), "unsettled": sum(o.unsettled for o in found), "carried": sum(o.carried for o in found),

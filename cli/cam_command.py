@@ -72,7 +72,7 @@ def cam(
 
 
 def print_cam(found):
-    """Print the tables of a cam, the reasons of angles without a result, and where it lies."""
+    """Print the tables of a cam, the reasons of angles without a result, and its path."""
     from tehl_cli.tables import list_table
 
     from tehl_taichi.runs.cam.cam_columns import tables

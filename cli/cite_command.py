@@ -19,7 +19,7 @@ def cite():
 
 
 def bibtex():
-    """The entries, with version, year and commit."""
+    """BibTeX entries with version, year and commit."""
     from tehl_taichi import __released__, __version__
     from tehl_taichi.commit import commit
 

@@ -1,4 +1,4 @@
-"""tehl compare: runs, flanks, bearings, cams or studies side by side."""
+"""tehl compare: comparison of runs, flanks, bearings, cams or studies."""
 
 from pathlib import Path
 from typing import Any, List, Optional
@@ -66,7 +66,7 @@ def _scenes(found):
 
 
 def _results(found):
-    """The rows that differ, with the change where two runs are compared; then those that do not, as a line."""
+    """Print the rows that differ, with the change between two runs; then one line with those that do not."""
     from tehl_cli.tables import list_table
 
     pair, lines = len(found.names) == 2, found.lines
@@ -79,7 +79,7 @@ def _results(found):
 
 
 def _places(found):
-    """The quantities that differ somewhere, a row for each place; then those that do not, as a line."""
+    """Print the quantities that differ somewhere, a row per place; then one line with those that do not."""
     from tehl_cli.tables import list_table
 
     pair, unequal = len(found.tables) == 2, found.unequal()
@@ -96,12 +96,12 @@ def _places(found):
 
 
 def _once(rows):
-    """Rows whose first word is printed where it changes."""
+    """Rows whose repeated first word is left out."""
     return [(row[0] if n == 0 or rows[n - 1][0] != row[0] else "", *row[1:]) for n, row in enumerate(rows)]
 
 
 def _legend(changes):
-    """Meaning of two words of the table."""
+    """Print the meaning of two words of the table."""
     from tehl_taichi.runs.compare_change import NOT_SEPARATED
 
     if NOT_SEPARATED in changes:

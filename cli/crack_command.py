@@ -1,4 +1,4 @@
-"""tehl crack: where a crack goes under the loads of a stored passage."""
+"""tehl crack: crack paths under the loads of a stored passage."""
 
 from pathlib import Path
 from typing import Optional
@@ -78,7 +78,7 @@ def crack(
 
 
 def _share(oil):
-    """A number as such, anything else as the name of what is inside."""
+    """A number as a float, other texts as the name of a filling."""
     try:
         return float(oil)
     except ValueError:

@@ -1,4 +1,4 @@
-"""Entry point of `tehl`: nothing heavy is imported before signals, pipes and encodings are seen to."""
+"""Entry point of `tehl`: signals, pipes and encodings are set up before anything heavy is imported."""
 
 import _thread
 import atexit
@@ -21,7 +21,7 @@ PLAIN = {"±": "+-", "µ": "u", "μ": "u", "°": "deg ", "σ": "sigma", "τ": "t
 
 
 def main():
-    """Run the command line; exit codes: 0 done, 2 bad input, 3 not converged, 4 interrupted, 1 anything else."""
+    """Run the command line; exit codes: 0 done, 2 bad input, 3 not converged, 4 interrupted, 1 other errors."""
     end = {"code": FAILED}
     atexit.register(_leave, end)  # the first that is registered is the last that is called
     try:
@@ -41,13 +41,13 @@ def main():
 
 
 def _leave(end):
-    """Where kernels were launched the process ends at once, without what Python and Taichi free piece by piece."""
+    """End the process; after kernel launches at once, because Python and Taichi free their memory slowly."""
     if "tehl_taichi.engine.runtime" in sys.modules:
         sys.modules["tehl_taichi.engine.runtime"].leave(end["code"])
 
 
 def _run():
-    """The exit code of the command in sys.argv."""
+    """Exit code of the command in sys.argv."""
     CLOCK["began"] = time.perf_counter()
     debug = "--debug" in sys.argv
     if debug:
@@ -72,7 +72,7 @@ def _run():
 
 
 def _use_plugins():
-    """The plugins of scene files in sys.argv, before any registry is read."""
+    """Load the plugins of scene files in sys.argv before any registry is read."""
     files = [word.rpartition("=")[2] for word in sys.argv[1:] if word.lower().endswith(".toml")]
     if files:
         from tehl_taichi.values import plugins
@@ -82,7 +82,7 @@ def _use_plugins():
 
 
 def _sentence(error):
-    """Message of an error: system errors (a full disk) without their number; without a message the name."""
+    """Message of an error: system errors (a full disk) without their number; the type's name if there is no message."""
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
     if hasattr(error, "exit_code"):
@@ -93,7 +93,7 @@ def _sentence(error):
 
 
 def _plugins_hint():
-    """The files of the user that may have raised an error which is not ours, "" where none is loaded."""
+    """Text naming the plugin files that may have caused an unexpected error, "" without plugins."""
     own = sys.modules.get("tehl_taichi.values.plugins")
     if own is None or not (files := [module.__file__ for module in own.loaded()]):
         return ""
@@ -102,20 +102,20 @@ def _plugins_hint():
 
 
 def _print_last(sentence):
-    """The last word; a closed terminal does not take it, which changes no exit code."""
+    """Print the last message; errors of a closed terminal do not change the exit code."""
     with contextlib.suppress(OSError):
         print(_in_a_line(f"tehl: {sentence}"), file=sys.stderr)
 
 
 def _in_a_line(text, foreign=False):
-    """Letters that do not print (names may have escape sequences) are spelled; colours of a foreign text are removed."""
+    """Text with non-printing letters (escape sequences in names) spelled; foreign: colours of another library are removed."""
     from tehl_taichi.values.escape import one_line, printable
 
     return printable(one_line(text) if foreign else text)
 
 
 def _code(stop):
-    """Exit code of a SystemExit; what the terminal libraries make of a pipe that broke and of Ctrl-C is taken back."""
+    """Exit code of a SystemExit; corrects the codes of terminal libraries for a broken pipe and for Ctrl-C."""
     if isinstance(stop.__context__, BrokenPipeError):
         raise BrokenPipeError
     if stop.code == 128 + signal.SIGINT:
@@ -124,14 +124,14 @@ def _code(stop):
 
 
 def _signal_of(error):
-    """Name of the signal of the KeyboardInterrupt behind an error, "" of Ctrl-C."""
+    """Name of the signal of the KeyboardInterrupt behind an error, "" for Ctrl-C."""
     while error is not None and not isinstance(error, KeyboardInterrupt):
         error = error.__context__
     return getattr(error, "signal", "")
 
 
 class _Stopped(KeyboardInterrupt):
-    """By a signal of that name, "" of Ctrl-C."""
+    """A stop by the signal with this name, "" for Ctrl-C."""
 
     signal: str
 
@@ -143,7 +143,9 @@ def _by(name):
 
 
 def _stop_as_ctrl_c_does():
-    """`kill` and a closed terminal stop a run as Ctrl-C does, but are named; what the caller ignores (nohup) stays ignored."""
+    """Let `kill` and a closed terminal stop a run like Ctrl-C, with the signal's name; signals that the caller ignores (nohup)
+    stay ignored.
+    """
     for name in ("SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)
         with contextlib.suppress(ValueError):  # not the main thread
@@ -157,7 +159,7 @@ def _stop(number, _):
 
 
 def _stop_again(dropped):
-    """A stop that came where Python drops errors (the callback of a weak reference, within an import) comes once more."""
+    """Raise a stop again that Python dropped (in the callback of a weak reference, during an import)."""
     if not isinstance(dropped.exc_value, KeyboardInterrupt):
         return sys.__unraisablehook__(dropped)
     number = getattr(signal, getattr(dropped.exc_value, "signal", "") or "SIGINT")
@@ -167,7 +169,7 @@ def _stop_again(dropped):
 
 
 def _print_in_any_encoding():
-    """Letters that a terminal's encoding does not have are spelled."""
+    """Spell letters that the terminal's encoding does not have."""
     codecs.register_error("spelled", _spelled)
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):

@@ -1,4 +1,4 @@
-"""tehl export: a stored run for other tools."""
+"""tehl export: stored runs as files for other tools."""
 
 from pathlib import Path
 from typing import List, Optional

@@ -1,4 +1,4 @@
-"""tehl fatigue: the fatigue pass over a store, again and with other constants."""
+"""tehl fatigue: fatigue search of a store with other constants."""
 
 from pathlib import Path
 from typing import Optional
@@ -57,7 +57,7 @@ def fatigue(
 
 
 def _doubts(scene, constants):
-    """Constants that have no effect on this passage."""
+    """Sentences about constants that have no effect on this passage."""
     from tehl_taichi.fatigue.overrides import changed
     from tehl_taichi.scene import idle_keys
 

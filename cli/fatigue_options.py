@@ -1,4 +1,4 @@
-"""The options of every command that searches the fatigue of a run again."""
+"""Options of every command that searches the fatigue of a run again."""
 
 import functools
 from typing import Annotated, Optional
@@ -47,12 +47,13 @@ def _options(
     residual_xx: Annotated[Optional[float], typer.Option(help="constant residual stress along x, Pa")] = None,
     residual_yy: Annotated[Optional[float], typer.Option(help="constant residual stress along y, Pa")] = None,
 ):
-    """The options, as typer reads them."""
+    """Options as parameters for typer."""
 
 
 def with_fatigue_options(command):
-    """The command with these options in place of its `**constants`: those that :func:`tehl_taichi.fatigue` takes, None
-    where they are not given."""
+    """Decorator: the command gets these options in place of its `**constants`, as :func:`tehl_taichi.fatigue` takes them; None
+    if not given.
+    """
     @functools.wraps(command)
     def with_depths(*first, depths, **given):
         return command(*first, **given, depths=_depths(depths))

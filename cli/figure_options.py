@@ -1,4 +1,4 @@
-"""The options that every command has that draws."""
+"""Options of every command that draws."""
 
 from typing import Annotated
 

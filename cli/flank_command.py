@@ -81,7 +81,7 @@ def flank(
 
 
 def _line(gear, base, changes, steady):
-    """Scene changes of all positions: a line contact."""
+    """Scene changes for all positions: a line contact."""
     from math import inf
 
     from tehl_taichi.runs.flank.flank_source import flank_source
@@ -93,14 +93,14 @@ def _line(gear, base, changes, steady):
 
 
 def _place(text):
-    """A way in m, or the name of a point."""
+    """A coordinate in m, or the name of a point."""
     from tehl_taichi.values.units import in_unit
 
     return in_unit("--at", amount(text), "m")
 
 
 def print_flank(found):
-    """Print the tables of a flank, its answer, its warnings, the reasons of what has no result, and where it lies."""
+    """Print the tables of a flank, its answer, its warnings, the reasons of missing results, and its path."""
     from tehl_cli.tables import list_table, warning_lines
 
     from tehl_taichi.report import flank_page

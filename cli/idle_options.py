@@ -1,4 +1,4 @@
-"""Options that were typed and change nothing beside the others: they are reported, as keys of a scene are."""
+"""Report of typed options without effect beside the others, as for keys of a scene."""
 
 from tehl_cli.live_display import say
 
@@ -6,14 +6,14 @@ DRAWS = ("format", "dpi", "width", "figure_width", "force")  # of figures: witho
 
 
 def say_idle(context, why, *names):
-    """A warning for each of these parameters of the command that the user typed; context: None where Python calls it."""
+    """Warn about each of these parameters of the command that the user typed; context: None if Python calls the command."""
     for parameter in context.command.params if context else ():
         if parameter.name in names and context.get_parameter_source(parameter.name).name == "COMMANDLINE":
             say(f"warning: {_typed(parameter, context.params[parameter.name])} has no effect here: {why}")
 
 
 def _typed(parameter, value):
-    """The option with its value, as it is typed."""
+    """The option as it was typed."""
     if isinstance(value, bool):
         return (parameter.opts if value else parameter.secondary_opts or parameter.opts)[0]
     return f"{parameter.opts[0]} {value}"

@@ -1,4 +1,4 @@
-"""Pressure, film and temperature along the centreline as dots of braille letters, for the terminal of a run."""
+"""Curves of pressure, film and temperature along the centreline in braille dots, for the terminal."""
 
 import numpy as np
 
@@ -11,14 +11,15 @@ SHOWN = (("pressure", "pressure", 1e-9, "GPa", "magenta"), ("film", "film", 1e6,
 
 
 class Curves:
-    """The newest snapshot along y = 0, on a whole domain through its largest pressure, in axes that only grow: x around the
-    contact, p from 0, h to 2.5 central films, T."""
+    """Newest snapshot along y = 0, on a whole domain through its largest pressure, with axes that only grow: x around the
+    contact, p from 0, h to 2.5 central films, T.
+    """
 
     def __init__(self):
         self.part, self.curves, self.feature, self.ends = None, {}, np.nan, {}
 
     def take(self, snapshot):
-        """Keep what is drawn of a snapshot."""
+        """Store the drawn values of a snapshot."""
         row = shown_row(snapshot)
         if self.part is None:
             self.part = around(snapshot.fields["pressure"][:, row])
@@ -30,7 +31,7 @@ class Curves:
             self._widen(name, values, FILMS * snapshot.scalars["h_c_m"] * 1e6)
 
     def _widen(self, name, values, thick):
-        """Let the axis of a curve hold it; thick: end of the film's, um, as it was at first."""
+        """Extend the axis of a curve to include the values; thick: initial end of the film's axis, um."""
         if name == "film":
             self.ends.setdefault(name, (0.0, thick))
             return
@@ -38,7 +39,7 @@ class Curves:
         self.ends[name] = min(low, values.min()), max(high, values.max())
 
     def __rich_console__(self, console, options):
-        """The plots side by side, as many as there is room for; nothing in a small terminal, or one without braille."""
+        """The plots side by side, as many as fit; nothing in a small terminal, or one without braille."""
         count = min(len(self.curves), options.max_width // NARROWEST)
         if count and console.height >= LOWEST and options.encoding.startswith("utf"):
             yield self._table(count, options.max_width // count - 2)
@@ -58,7 +59,7 @@ class Curves:
         return "\n".join([f"{title} {low:.3g} to {high:.3g} {unit}", *rows, self._foot(width)])
 
     def _foot(self, width):
-        """The axis of x with the feature on it, and its ends in mm."""
+        """Axis of x with the feature on it, and its ends in mm."""
         axis, at = ["─"] * width, (self.feature - self.x[0]) / np.ptp(self.x)
         if 0 <= at <= 1:
             axis[int(at * (width - 1))] = "▲"
@@ -67,8 +68,10 @@ class Curves:
 
 
 class CurvesBar:
-    """Curves above a progress bar of the steps, or of the parts of another stage, on stderr; only :meth:`show` draws them, so
-    that no thread is needed. of: what it counts; the time left is shown of steps alone, which take about the same."""
+    """Curves above a progress bar on stderr. Only :meth:`show` draws them, so no thread is needed.
+
+    of: what is counted; the remaining time is shown only for steps, which take about equal times.
+    """
 
     def __init__(self, curves, total, done, of="step"):
         from rich.console import Console, Group
@@ -83,7 +86,7 @@ class CurvesBar:
         self.start, self.stop = self.live.start, self.live.stop
 
     def show(self, step, text=""):
-        """Draw it with so many steps done."""
+        """Draw with `step` parts done."""
         self.steps.update(self.task, completed=step, description=text)
         self.live.refresh()
 
@@ -96,15 +99,18 @@ def shown_row(snapshot):
 
 
 def around(p):
-    """Slice of the contact and a little on both sides; p: pressure along the centreline."""
+    """Slice of the contact and its surroundings; p: pressure along the centreline."""
     loaded = np.flatnonzero(p >= LOADED * p.max())
     more = int(BESIDE * (loaded[-1] - loaded[0])) + 1
     return slice(max(0, loaded[0] - more), loaded[-1] + more + 1)
 
 
 def braille(values, width, rows, low, high):
-    """`rows` lines of `width` letters: values over their number, from low at the bottom to high at the top; what is beyond is
-    not drawn. Every value counts: a column of dots goes from the least to the largest of its part."""
+    """`rows` lines of `width` letters with the values over their index, from low at the bottom to high at the top; values
+    beyond are not drawn.
+
+    Every value counts: a column of dots spans the smallest to the largest of its values.
+    """
     levels, edges = 4 * rows, np.linspace(0, values.size - 1, 2 * width + 1)
     places = np.union1d(np.arange(values.size), edges)
     fine, at = np.interp(places, np.arange(values.size), values), np.searchsorted(places, edges)

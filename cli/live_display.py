@@ -1,4 +1,4 @@
-"""Progress on stderr: a bar and curves in a terminal, a plain line now and then elsewhere."""
+"""Progress on stderr: a bar and curves in a terminal, otherwise plain lines."""
 
 import contextlib
 import sys
@@ -11,7 +11,7 @@ from tehl_taichi.runs.progress import LATE, PASSAGE, STEADY, Lines, line
 
 
 def say(text):
-    """One line on stderr; a run continues where its output is closed."""
+    """Print one line on stderr; a run continues if that is closed."""
     with contextlib.suppress(BrokenPipeError):
         put(text, file=sys.stderr)
 
@@ -20,13 +20,13 @@ LOADING, SOLVING = "loading", "steady contact: loading kernels (new ones are com
 
 
 class StatusLine:
-    """What is being done, in the last line of a terminal, until the next text; on: whether there is one."""
+    """Status text in the last line of a terminal, until the next text; on: whether stderr is a terminal."""
 
     def __init__(self, on):
         self.on, self.text = on, ""
 
     def show(self, text):
-        """Replace it; an empty text takes the line back."""
+        """Replace the text; an empty text removes the line."""
         if self.on and (text or self.text):
             with contextlib.suppress(OSError):  # a terminal that was closed
                 sys.stderr.write(f"\r\x1b[K{text}")
@@ -35,7 +35,7 @@ class StatusLine:
 
     @contextlib.contextmanager
     def away(self):
-        """Take it back while something else is printed."""
+        """Remove the line while something else is printed."""
         text = self.text
         self.show("")
         yield
@@ -43,8 +43,11 @@ class StatusLine:
 
 
 class Live(Lines):
-    """Progress of a run in the terminal: warnings alone if `quiet`, a bar without curves if not `curves`; a context manager
-    that ends them. A status line says what is done before the first step; the last picture of a passage stays."""
+    """Progress of a run in the terminal: only warnings if `quiet`, a bar without curves if not `curves`.
+
+    A context manager that ends them. A status line shows the activity before the first step; the last picture of a passage
+    stays.
+    """
 
     DRAWN = 0.5  # s at least between two pictures
     SHARE = 0.005  # of the time at most for drawing
@@ -106,7 +109,7 @@ class Live(Lines):
         self._when_due(lambda: self._draw(snapshot), snapshot.step == self.total)
 
     def _when_due(self, draw, last):
-        """Draw, unless the picture before was just now; the last one in any case."""
+        """Draw unless the last picture is very recent; last: draw in any case."""
         if (began := time.perf_counter()) >= self.due or last:
             draw()
             done = time.perf_counter()

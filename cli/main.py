@@ -1,4 +1,4 @@
-"""The commands."""
+"""All commands of `tehl`."""
 
 import contextlib
 from typing import Any
@@ -35,8 +35,7 @@ USAGE: Any = typer.BadParameter.__mro__[2]  # of typer's own errors, which it do
 
 
 class Commands(typer.core.TyperGroup):
-    """The commands; Ctrl-C in any of them is one more error that ends in a sentence (typer's own end is "Aborted!"), and a
-    refused value is named."""
+    """Command group in which Ctrl-C ends with a message (typer's own is "Aborted!"), and messages name the refused value."""
 
     def make_context(self, *words, **options):
         with _printable():
@@ -66,12 +65,12 @@ def _printable():
 
 
 def _sentence(stop):
-    """The sentence of a KeyboardInterrupt; of one without, what is stored."""
+    """Message of a KeyboardInterrupt; the default says what is stored."""
     return str(stop) or f"{stopped(stop)}; all stored data are kept"
 
 
 def _with_value(error):
-    """The message of a BadParameter with the value, which typer's own checks (pydantic's) leave out."""
+    """Message of a BadParameter with the value, which typer's own checks (pydantic's) leave out."""
     found: Any = getattr(error.__cause__, "errors", list)()
     return f"{found[0]['input']!r}; {error.message[0].lower()}{error.message[1:]}" if found else error.message
 
@@ -125,7 +124,7 @@ cite_command.register(app)
 
 
 def _sort():
-    """Commands in the order of PANELS, each below its heading."""
+    """Sort the commands in the order of PANELS, each below its heading."""
     panels = {name: panel for panel, names in PANELS.items() for name in names}
     for command in app.registered_commands:
         function: Any = command.callback

@@ -150,7 +150,7 @@ def zoom(
 
 
 def _print(run, as_json, printed=(), budget=None):
-    """printed: warnings that were printed before the run; budget: its TimeBudget or None."""
+    """Print the summary of a run; printed: warnings that were printed before the run; budget: its TimeBudget or None."""
     from tehl_cli.tables import summary_table
 
     timing = {"timing_s": dict(budget.spent)} if budget else {}
@@ -185,7 +185,7 @@ def _print_time(done):
 
 
 def _on_grid_for(target, changes, description):
-    """The scene on the grid that a target error needs."""
+    """Scene on the grid that a target error needs."""
     if target is None:
         return description
     from tehl_taichi.scene import SceneError

@@ -1,4 +1,4 @@
-"""Changes of a scene as the options of commands and `--set` give them."""
+"""Changes of a scene by command options and `--set`."""
 
 GRIDS = {"coarse": (128, 32), "medium": (256, 64), "fine": (512, 128)}
 
@@ -11,7 +11,7 @@ NAMES = {"oil.name": "oil"}  # of options that are not the end of their key
 
 
 def given_by(options, grid, settings):
-    """{full key: value} of the options that were used and of --set; SceneError where two of them contradict each other."""
+    """{full key: value} of the used options and --set; SceneError if two of them contradict each other."""
     from tehl_taichi.scene.aliases import settled
 
     used = [(key, value) for key, value in options.items() if value is not None]
@@ -40,8 +40,11 @@ def _grid(text):
 
 
 def check_rows(grid, changes, description):
-    """Refuse one number as --grid of a scene that varies across: the other would be that of another grid. grid: as it was
-    typed; changes: what :func:`given_by` made of all; description: a function that gives the changed scene. SceneError."""
+    """Refuse a single number as --grid for a scene that varies along y, where the second number would remain from another grid.
+    SceneError.
+
+    grid: as typed; changes: result of :func:`given_by`; description: function that gives the changed scene.
+    """
     if grid is None or "grid.ny" in _grid(grid) or description().one_dimensional:
         return
     from tehl_taichi.scene import SceneError
@@ -65,7 +68,7 @@ def _settings(pairs):
 
 
 def _value(text):
-    """The value of a --set, as TOML reads it; what is no TOML value is text."""
+    """Value of a --set by the rules of TOML; if it is no TOML value, the text itself."""
     import tomllib
 
     try:

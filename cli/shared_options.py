@@ -1,4 +1,4 @@
-"""Options that several commands share: the parameters of a function, which stand in the signature of each command."""
+"""Options that several commands share: parameters of a function that appear in the signature of each command."""
 
 import functools
 import inspect
@@ -10,8 +10,9 @@ def none():
 
 
 def sharing(place, before, after=none):
-    """Decorator of a command: typer reads the parameters of the functions `before` (behind its first `place` parameters) and
-    `after` (at the end) in place of its `**shared`; the command receives them as keywords."""
+    """Decorator of a command: typer reads the parameters of the functions `before` (after its first `place` parameters) and
+    `after` (at the end) in place of its `**shared`; the command receives them as keywords.
+    """
     return lambda command: _shared(command, place, _parameters(before), _parameters(after))
 
 

@@ -1,4 +1,4 @@
-"""Commands that look: scenes, oils, laws, new, show, plot, doctor."""
+"""Commands that list and show: scenes, oils, laws, new, show, plot, doctor."""
 
 from pathlib import Path
 from typing import Any, Optional
@@ -231,7 +231,9 @@ OPTIONS = {"run": ("at", "depth", "interference", "refractive_index", "wavelengt
 
 
 def _draw(store, out, options, page):
-    """Paths of the figures of whatever lies at `store`; options: {option: value} of OPTIONS, None where not given."""
+    """Draw the figures of the results at `store`; returns their paths. options: {option: value} of OPTIONS, None if not
+    given.
+    """
     import tehl_taichi as tehl
     from tehl_taichi.errors import SceneError
     from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, RUN, kind
@@ -251,7 +253,7 @@ def _draw(store, out, options, page):
 
 
 def _show_plugins():
-    """Tables of the plugins and of their entries; whether all compute their known values."""
+    """Print tables of the plugins and their entries; returns whether all give their known values."""
     from tehl_cli.tables import list_table
 
     from tehl_taichi.runs import self_test

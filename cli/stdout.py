@@ -5,14 +5,14 @@ import sys
 
 
 def put(text, keep="", file=None):
-    """Print a line in which letters that do not print are spelled, but for those in `keep`."""
+    """Print a line with non-printing letters spelled, except those in `keep`."""
     from tehl_taichi.values.escape import printable
 
     print(printable(text, keep), file=file or sys.stdout, flush=file is not None)
 
 
 def print_json(value):
-    """One JSON object; NaN and the infinities, which JSON has not, are null."""
+    """Print one JSON object; NaN and infinities, which JSON lacks, become null."""
     from tehl_taichi.store.json_values import plain
 
     print(json.dumps(plain(value), allow_nan=False))

@@ -1,4 +1,4 @@
-"""Results of a suite: tables for people or one JSON object, both in files beside a picture."""
+"""Results of a suite: printed tables or one JSON object, both also in files, with a picture."""
 
 from tehl_cli import bench_page
 from tehl_cli.live_display import say
@@ -6,7 +6,7 @@ from tehl_cli.stdout import print_json
 
 
 def table(title, rows, columns):
-    """Print rows (dictionaries) as {key: format} says; a value that is not known is left empty."""
+    """Print rows (dictionaries) in the formats {key: format}; unknown values are left empty."""
     from tehl_cli.tables import list_table
 
     list_table(title, columns, texts(rows, columns))
@@ -18,10 +18,10 @@ def texts(rows, columns):
 
 
 class Results:
-    """The files NAME.json, NAME.png and others (`more`: their endings) of a suite in a folder.
+    """Files NAME.json, NAME.png and others (`more`: their endings) of a suite in a folder.
 
-    force: replace those of an earlier run; write: replace the suite's table in its page in docs, too. Raises StoreError,
-    before the work, where they may not be written.
+    force: replace those of an earlier run; write: also replace the suite's table in the documentation. Raises StoreError,
+    before the work, if they may not be written.
     """
 
     def __init__(self, folder, name, force, more=(), kept=(), write=False):
@@ -40,7 +40,7 @@ class Results:
         return self.folder / f"{self.name}.{ending}"
 
     def finish(self, rows, chart, as_json, **more):
-        """Write NAME.json (machine, rows and what else is given) and NAME.png; print the JSON object where it is requested.
+        """Write NAME.json (machine, rows and further data) and NAME.png; print the JSON object if requested.
 
         chart(plt): the figure.
         """
@@ -53,8 +53,9 @@ class Results:
             print_json(found)
 
     def documented(self, columns, rows, keys=0):
-        """Write the suite's table into its page in docs where that is wanted; rows: lists of texts; keys: as of
-        :func:`tehl_cli.bench_page.write`."""
+        """Write the suite's table into the documentation if requested; rows: lists of texts; keys: see
+        :func:`tehl_cli.bench_page.write`.
+        """
         if self.write:
             bench_page.write(self.name, columns, rows, keys)
             say(f"wrote {bench_page.of(self.name)}")
@@ -66,7 +67,7 @@ class Results:
         user_files.text(self.file("md"), f"{text.rstrip()}\n\n{user_files.COMMENT}\n", force=True)
 
     def picture(self, chart):
-        """Write NAME.png where matplotlib is installed; chart(plt): the figure."""
+        """Write NAME.png if matplotlib is installed; chart(plt): the figure."""
         from tehl_taichi.profiles import measure
 
         from tehl_taichi.disk import user_files

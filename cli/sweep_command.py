@@ -1,4 +1,4 @@
-"""`tehl sweep`: many runs of one scene, side by side."""
+"""`tehl sweep`: many runs of one scene."""
 
 from pathlib import Path
 from typing import List, Optional
@@ -78,7 +78,7 @@ def sweep(
 
 
 def _planned(name, over, samples, seed, changes, grid, out):
-    """(plan, where its study goes or None) of a scene with --over, of a study file, or of a study."""
+    """(plan, path of its study or None) from a scene with --over, a study file, or a study."""
     from tehl_taichi.runs.sweep import study_file
     from tehl_taichi.runs.sweep.axis_syntax import over_of
     from tehl_taichi.runs.sweep.plan import plan
@@ -124,7 +124,7 @@ def _report(plan, out):
 
 
 def _doubts(plan):
-    """Sentences on keys without effect: in all cases, and in some of them."""
+    """Sentences about keys without effect, in all cases or in some of them."""
     yield from (f"warning: {sentence}" for sentence in plan.doubts())
     yield from (f"warning: case {number} equals case {first}: the keys that differ have no effect there"
                 for number, first in plan.equal().items())
@@ -134,7 +134,7 @@ def _doubts(plan):
 
 
 def _cases(numbers):
-    """Cases by their numbers, with the verb."""
+    """Text of cases by their numbers, with the verb."""
     few = ", ".join(map(str, numbers[:8])) + ", ..." * (len(numbers) > 8)
     return f"case {few} computes" if len(numbers) == 1 else f"cases {few} compute"
 

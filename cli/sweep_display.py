@@ -1,4 +1,4 @@
-"""Display of a sweep in a terminal: a bar with the time left and the last cases, plain lines elsewhere; its table."""
+"""Display of a sweep: in a terminal a bar with the remaining time and the last cases, otherwise plain lines; its table."""
 
 import itertools
 import math
@@ -18,7 +18,7 @@ LAST, MOST_ROWS = 8, 60
 
 
 class SweepLive:
-    """Listens to a sweep: called with (study, record of the case that ended, or None at the start)."""
+    """Listener of a sweep: called with (study, record of the completed case, or None at the start)."""
 
     EVERY = 5.0  # s between plain lines; failures are printed at once
 
@@ -91,7 +91,7 @@ class SweepLive:
         return Group(table, foot)
 
     def left(self, resume=""):
-        """End of a sentence about a stopped sweep: cases done, and how to resume (default: as a sweep)."""
+        """End of a sentence about a stopped sweep: completed cases, and how to resume (default: as a sweep)."""
         if self.study is None:
             return "before any result was stored"
         done = len(self.study) - len(self.study.open_cases)
@@ -105,19 +105,19 @@ def changes_words(record):
 
 
 def case_words(record):
-    """A case, in words."""
+    """Text of a case."""
     return f"case {record['case']} ({changes_words(record)})"
 
 
 def duration(seconds):
-    """A time left in words, with a unit that suits it."""
+    """Text of a remaining time, in a suitable unit."""
     if seconds < 90:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
 
 
 def print_study(study):
-    """Print the table of a study, the reasons of what has no result, and where it lies."""
+    """Print the table of a study, the reasons of missing results, and its path."""
     from tehl_cli.tables import list_table
 
     columns = [entry for entry in SHOWN if entry[0] in study.values]

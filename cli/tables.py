@@ -1,4 +1,4 @@
-"""Tables for people."""
+"""Printed tables."""
 
 import os
 
@@ -9,7 +9,7 @@ NAME = 40  # characters of a first column that is not broken; sentences are
 
 
 def cell(text, keep=""):
-    """Text of a table as it is: [brackets] are no markup of rich's."""
+    """Text of a table cell, unchanged: [brackets] are no markup of rich."""
     from rich.text import Text
 
     from tehl_taichi.values.escape import printable
@@ -30,7 +30,7 @@ def _table(title, rows):
 
 
 def summary_table(summary, printed=()):
-    """Print the summary of a run; printed: warnings that stand above already."""
+    """Print the summary of a run; printed: warnings that were printed before."""
     from tehl_taichi.runs.summary.summary_rows import summary_rows, title
 
     _table(title(summary), summary_rows(summary))
@@ -39,7 +39,7 @@ def summary_table(summary, printed=()):
 
 
 def _answer(summary):
-    """Print what the report of a passage begins with."""
+    """Print the answer of a passage, as in its report."""
     from tehl_taichi.fatigue.judged_surfaces import others
     from tehl_taichi.report.verdict import of_fatigue
 
@@ -64,7 +64,7 @@ def wrapped(sentence):
 
 
 def list_table(title, columns, rows, whole=False):
-    """Print rows under column names; whole: as wide as they are, where there is no terminal whose width counts."""
+    """Print rows under column names; whole: without a terminal, the table is as wide as its contents."""
     from rich.console import Console
     from rich.table import Table
 
@@ -87,7 +87,7 @@ HISTORY = (("step", "step", 1, ".0f"), ("p_max_Pa", "p_max GPa", 1e-9, ".4f"), (
 
 
 def history_table(scalar, entries):
-    """Print scalars of some entries of a store; scalar(name) -> its values."""
+    """Print scalars of some entries of a store; scalar(name) gives their values."""
     columns = [(scalar(name), factor, form) for name, _, factor, form in HISTORY]
     list_table("history", [title for _, title, _, _ in HISTORY],
                [[format(float(values[n]) * factor, form) for values, factor, form in columns] for n in entries])

@@ -5,7 +5,7 @@ import contextlib
 
 @contextlib.contextmanager
 def timed(live):
-    """The TimeBudget of a command whose progress is shown by `live`; None without one."""
+    """The TimeBudget of a command whose progress `live` shows; None without --timing."""
     if live is None:
         yield None
         return

@@ -76,7 +76,7 @@ def traction(
 
 
 def print_traction(found):
-    """Print the table of traction curves, the reasons of what has no result, warnings, and where it lies."""
+    """Print the table of traction curves, the reasons of missing results, warnings, and its path."""
     from tehl_cli.tables import list_table, warning_lines
 
     rows = found.rows

@@ -1,6 +1,5 @@
-"""Everything that is Taichi or FFTW: start, fields, kernels on blocks of rows (`simd`), transforms, tasks of one kernel.
+"""The only room with Taichi and FFTW: start, fields, kernels on blocks of rows (`simd`), transforms, tasks of one kernel.
 
-`language` and `pointwise` are what other rooms write kernels and laws with; `taichi_patches` changes Taichi itself.
-Nothing here knows of contacts; no other room imports Taichi or FFTW.
-May import: errors.
+Other rooms write kernels and laws with `language` and `pointwise`; `taichi_patches` changes Taichi itself. This room knows
+nothing of contacts; no other room imports Taichi or FFTW. May import: errors.
 """

@@ -1,7 +1,7 @@
-"""Memory of arrays that come and go: a run makes and drops some of megabytes at every step, and at every wave of a search.
+"""Memory of short-lived arrays: a run allocates and frees arrays of megabytes at every step, and at every wave of a search.
 
-The C library gives such back to the system at once and gets them again empty, page by page: 380 000 pages in an isothermal
-passage, 80 000 with this (11.3 -> 10.7 s, 256x64 with its fatigue, medians of three in turn).
+The C library returns such memory to the system at once and receives new empty pages: 380 000 pages in an isothermal passage, 80
+000 with this (11.3 -> 10.7 s, 256x64 with its fatigue, medians of three in turn).
 """
 
 import ctypes
@@ -13,7 +13,7 @@ FREE = (1 << 31) - 1  # bytes of it that may lie idle at its end
 
 
 def keep_freed():
-    """Let the C library of this process keep what is freed. Other C libraries stay as they are."""
+    """Let the C library of this process keep freed memory; other C libraries are not changed."""
     if not sys.platform.startswith("linux"):
         return
     mallopt = getattr(ctypes.CDLL(None), "mallopt", None)

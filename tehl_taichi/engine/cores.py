@@ -1,4 +1,4 @@
-"""Cores that this process may use, and Taichi's threads on cores of their own."""
+"""Cores available to this process, and Taichi's threads on separate cores."""
 
 import contextlib
 import math
@@ -11,25 +11,26 @@ TASKS = Path("/proc/self/task")
 
 
 def available(groups=None, own=None):
-    """Number of cores that this process may use: by its affinity, and by the quota of its control group (containers, batch
-    systems), at least 1."""
+    """Number of cores that this process may use, at least 1: by its affinity, and by the quota of its control group
+    (containers, batch systems).
+    """
     return max(1, math.floor(min(len(allowed()), quota(groups, own))))
 
 
 def allowed():
-    """The cores of its affinity, in order."""
+    """Cores of the process's affinity, sorted."""
     if hasattr(os, "sched_getaffinity"):
         return sorted(os.sched_getaffinity(0))
     return list(range(os.cpu_count() or 1))
 
 
 def quota(groups=None, own=None):
-    """Cores that the control groups of this process grant it; infinite where they set no limit, or are out of sight."""
+    """Number of cores granted by the control groups of this process; infinite without a limit, or if they cannot be read."""
     return min(map(_granted, _groups(groups or GROUPS, own or OWN)), default=math.inf)
 
 
 def _groups(groups, own):
-    """Folders of its control groups and of those that these lie in, of both versions."""
+    """Folders of its control groups and of their parents, for both versions of control groups."""
     with contextlib.suppress(OSError):
         for line in own.read_text().splitlines():
             _, controllers, path = line.split(":", 2)
@@ -51,9 +52,12 @@ def _granted(folder):
 
 @contextlib.contextmanager
 def pinned(threads):
-    """Give each of the last `threads` threads that start inside (Taichi's pool; those before them compile) a core of its own,
-    where they take all cores of this process: left alone, one often wakes on the core of another and waits for it. With
-    fewer threads than cores they stay free, so that several runs at once spread."""
+    """Context manager: give each of the last `threads` threads started inside (Taichi's pool; earlier ones compile) its own
+    core, if they use all cores of this process.
+
+    Otherwise a thread often wakes on the core of another and waits for it. With fewer threads than cores they stay free, so
+    that several runs spread over the cores.
+    """
     cores, before = allowed(), _running()
     yield
     new = sorted(_running() - before)[-threads:]

@@ -1,11 +1,11 @@
 """exp, log, minimum and maximum for numbers and for lanes.
 
-On lanes (a vector of rows) the library calls one row at a time and takes most of the time of the laws; these work on all
-rows at once: range reduction by powers of two, then a polynomial (Hart, Computer Approximations, 1968), to 4e-16, summed
-by Estrin's scheme: Horner's is one long chain, which the loops over nodes would wait for (laws of a film 1.5 times slower).
+On lanes (a vector of rows) the library calls one row at a time and takes most of the time of the laws. These work on all rows
+at once: range reduction by powers of two, then a polynomial (Hart, Computer Approximations, 1968), to 4e-16, summed by Estrin's
+scheme (Horner's is one long chain, for which loops over nodes would wait; laws of a film 1.5 times slower).
 
-Taichi's min and max see to it that a number wins over NaN: three instructions in the chain of each exp. A choice between two is
-one (laws of a film 2.9 -> 2.2 ms a call, 256x64x9); where one of both is NaN it is the second.
+Taichi's min and max return a number if the other argument is NaN: three instructions in the chain of each exp. A choice between
+two is one instruction (laws of a film 2.9 -> 2.2 ms per call, 256x64x9); if one is NaN, it returns the second argument.
 """
 
 from tehl_taichi.engine.language import ti
@@ -68,7 +68,7 @@ def log_lanes(x):
 
 @ti.func
 def within(value, a, b):
-    """`value`, or what of a and b is nearer to it."""
+    """`value` limited to the range between a and b."""
     return minimum(maximum(value, minimum(a, b)), maximum(a, b))
 
 

@@ -1,9 +1,9 @@
 """Complex Fourier transforms inside kernels: lengths with factors 2, 3 and 5, known at run time; lanes are transformed
 together.
 
-Stockham's passes (radix 4, 2, 3, 5) between two buffers of a field of vectors, number k of a transform in the entries 2 k and
-2 k + 1 (real, imaginary part). A field, not an array: loops over arrays do not become vector instructions (0.225 against 0.060
-ms for 65 rows of 512).
+Stockham's passes (radix 4, 2, 3, 5) between two buffers of a field of vectors; number k of a transform is in the entries 2 k
+and 2 k + 1 (real, imaginary part). It is a field, not an array, because loops over arrays do not become vector instructions
+(0.225 against 0.060 ms for 65 rows of 512).
 """
 
 import math
@@ -18,12 +18,12 @@ Passes = ti.types.ndarray(dtype=ti.i32, ndim=2)
 
 
 def odd_radices(*lengths):
-    """Odd radices of the passes of all these :class:`Lengths`: what no pass has is not compiled."""
+    """Odd radices of the passes of all these :class:`Lengths`; others are not compiled."""
     return tuple(sorted({code for one in lengths for code, *_ in one.passes if code % 2}))
 
 
 def fast_length(n):
-    """Smallest length >= n without other prime factors than 2, 3 and 5."""
+    """Smallest length >= n with no prime factors other than 2, 3 and 5."""
     while _rest(n) > 1:
         n += 1
     return n
@@ -37,7 +37,7 @@ def _rest(n):
 
 
 def radices(n):
-    """Radices of the passes for length n, those of 4 behind."""
+    """Radices of the passes for length n, those of 4 last."""
     found = []
     for p in (5, 3):
         while n % p == 0:
@@ -70,7 +70,7 @@ class Lengths:
             stride *= radix
 
     def turns(self, steps, n):
-        """Place of the factors exp(-2 pi i steps / n) among the twiddle factors, where they are put."""
+        """Position of the factors exp(-2 pi i steps / n) among the twiddle factors; they are added if missing."""
         first = sum(map(len, self.factors))
         angles = 2 * np.pi * (steps % n) / n
         self.factors.append(np.stack([np.cos(angles), -np.sin(angles)], 1))
@@ -145,7 +145,7 @@ def sine(B: ti.template(), radix: ti.template(), n: ti.template()):
 
 @ti.func
 def pass_odd(B: ti.template(), a, b, T: ti.template(), t, parts, stride, sense, radix: ti.template()):
-    """Radix 3 or 5: results r and radix - r from the same sums (with 3 the second pair of inputs has no weight)."""
+    """Pass of radix 3 or 5: results r and radix - r from the same sums (with 3 the second pair of inputs has no weight)."""
     d, e = 2 * parts * stride, 2 * stride
     for p in range(parts):
         for q in range(stride):

@@ -1,7 +1,7 @@
-"""FFTW, as every module takes it: `from tehl_taichi.engine.fftw import pyfftw`.
+"""FFTW for all modules: `from tehl_taichi.engine.fftw import pyfftw`.
 
-Its package offers transforms to dask and to scipy, too, and imports both where they are installed: 0.9 s of every start, for
-functions that are not called here.
+The package also offers its transforms to dask and scipy and imports both if they are installed: 0.9 s of every start, for
+functions that are not used here.
 """
 
 import contextlib
@@ -32,7 +32,7 @@ SINGLE, DOUBLE = np.dtype(np.complex64), np.dtype(np.complex128)  # kinds of spe
 
 
 def even_fast_length(n):
-    """Smallest even length >= n that FFTW likes (odd ones are slow)."""
+    """Smallest even length >= n with a fast FFTW transform (odd ones are slow)."""
     length = pyfftw.next_fast_len(n)
     while length % 2:
         length = pyfftw.next_fast_len(length + 1)
@@ -40,8 +40,11 @@ def even_fast_length(n):
 
 
 def transform(values, length, kind=SINGLE):
-    """Transform (..., length) of values (..., n), zeros behind them: numpy's takes far longer in single precision than in
-    double (1024 of 330 numbers to 480: 8.3 and 3.3 ms, this 1.6)."""
+    """Transform (..., length) of values (..., n), padded with zeros.
+
+    numpy's transform is far slower in single precision than in double (1024 of 330 numbers to 480: 8.3 and 3.3 ms, this one
+    1.6).
+    """
     return transformed(_padded(values, length, -1, kind))
 
 
@@ -53,13 +56,13 @@ def transform_back(spectra):
 
 
 def transformed(numbers, direction="FFTW_FORWARD"):
-    """The transform of complex numbers in an aligned buffer, which takes it; back, it is `length` times as large."""
+    """Transform of complex numbers in an aligned buffer, in place; the backward one is `length` times as large."""
     _run(numbers, numbers, -1, direction)
     return numbers
 
 
 def half(values, length, axis, kind=SINGLE):
-    """First half of the transform along `axis` of so many real numbers, zeros behind those that there are."""
+    """First half of the transform of `length` real numbers along `axis`, padded with zeros."""
     given = _padded(values, length, axis, real_of(kind))
     out = pyfftw.empty_aligned(_with(given.shape, axis, length // 2 + 1), kind)
     _run(given, out, axis)
@@ -74,7 +77,7 @@ def half_back(spectra, length, axis, kind=SINGLE):
 
 
 def _padded(values, length, axis, kind):
-    """A buffer for FFTW with these values, filled with zeros up to the given length along `axis`."""
+    """Buffer for FFTW with these values, padded with zeros to the given length along `axis`."""
     out = pyfftw.empty_aligned(_with(values.shape, axis, length), kind)
     along = np.moveaxis(out, axis, 0)
     along[: values.shape[axis]], along[values.shape[axis] :] = np.moveaxis(values, axis, 0), 0
@@ -82,7 +85,7 @@ def _padded(values, length, axis, kind):
 
 
 def real_of(kind):
-    """Type of the real numbers that belong to a kind of spectra."""
+    """Type of the real numbers for a kind of spectra."""
     return np.float32 if kind == SINGLE else np.float64
 
 
@@ -93,5 +96,5 @@ def _with(shape, axis, length):
 
 
 def _run(given, target, axis, direction="FFTW_FORWARD"):
-    """Run on one thread by an estimated plan for aligned numbers: equal plans, and so equal bits, in every run."""
+    """Run on one thread with an estimated plan for aligned numbers: equal plans, and so equal bits, in every run."""
     pyfftw.FFTW(given, target, axes=(axis,), direction=direction, flags=("FFTW_ESTIMATE",), threads=1).execute()

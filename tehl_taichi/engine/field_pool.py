@@ -1,4 +1,6 @@
-"""Fields that are handed from one owner to the next: Taichi never frees them, and a new one compiles its kernels again."""
+"""Pool of fields that pass from one owner to the next: Taichi never frees a field, and a new one needs its kernels compiled
+again.
+"""
 
 import gc
 import itertools
@@ -16,10 +18,10 @@ SKEW = 12
 
 
 def lease(owner, rows, lanes, columns, slots=0, each=1, precision="f64", clean=True):
-    """A vector field of `rows` x at least `columns` columns of `each` times `lanes` numbers, zero, for `owner` alone while it
-    lives; with `slots` (and rows 0) of at least `columns` columns x `slots`.
+    """A zeroed vector field for `owner` as long as it lives: `rows` x at least `columns` columns of `each` times `lanes`
+    numbers; with `slots` (and rows 0) at least `columns` columns x `slots`.
 
-    That of a former owner is used again where there is one; with clean = False as he left it.
+    The field of a former owner is used again if there is one; clean=False: with its old contents.
     """
     runtime.ensure()
     needed = (lanes, precision), (rows, columns * each, slots)
@@ -40,13 +42,13 @@ def lease(owner, rows, lanes, columns, slots=0, each=1, precision="f64", clean=T
 
 
 def _capacity(columns):
-    """The next size of a table of so many columns."""
+    """Next standard size of a table with this number of columns."""
     sizes = (size for n in itertools.count() for size in (SMALLEST_TABLE << n, 3 * SMALLEST_TABLE << n >> 1))
     return next(size + SKEW for size in sizes if size + SKEW >= columns)
 
 
 def _free(entries):
-    """The first one whose owner is gone, or None."""
+    """First entry whose owner no longer exists, or None."""
     return next((entry for entry in entries if entry[1]() is None), None)
 
 

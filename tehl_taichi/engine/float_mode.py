@@ -1,7 +1,7 @@
-"""The floating-point mode of a thread.
+"""Floating-point mode of a thread.
 
-Taichi's start flushes the subnormal numbers of its thread to zero, for good. Kernels keep that mode, which their own threads
-have, too; that of the caller is as it was before, between and behind launches.
+Taichi's start sets its thread to flush subnormal numbers to zero, permanently. Kernels keep that mode, which their own threads
+also have; the caller's mode is restored before, between and after launches.
 """
 
 import contextlib
@@ -13,7 +13,7 @@ SIZE = 64  # bytes, at least those of a fenv_t: 32 on x86-64, 8 on AArch64
 
 @functools.lru_cache(maxsize=1)
 def _library():
-    """fegetenv and fesetenv of the C library, as functions of a buffer; None where there are none."""
+    """fegetenv and fesetenv of the C library, as functions of a buffer; None if they do not exist."""
     with contextlib.suppress(OSError, AttributeError):
         library = ctypes.PyDLL("libm.so.6")  # keeps the lock of the interpreter: a call takes 0.2 us
         return library.fegetenv, library.fesetenv
@@ -21,7 +21,7 @@ def _library():
 
 
 def now():
-    """The mode of this thread, for :func:`back`."""
+    """Present mode of this thread, for :func:`back`."""
     mode = ctypes.create_string_buffer(SIZE)
     if functions := _library():
         functions[0](mode)
@@ -29,14 +29,14 @@ def now():
 
 
 def back(mode):
-    """Give this thread the mode of :func:`now`."""
+    """Set the mode of this thread to a result of :func:`now`."""
     if functions := _library():
         functions[1](mode)
 
 
 @contextlib.contextmanager
 def kept():
-    """Inside, the mode may become another one."""
+    """Context manager: restore the mode at the end of the block."""
     before = now()
     try:
         yield
@@ -45,7 +45,7 @@ def kept():
 
 
 def launching(program, mode):
-    """Let the kernels of Taichi's `program` run in that mode, and every launch of theirs end in the mode that it began in."""
+    """Run the kernels of Taichi's `program` in this mode, and restore the caller's mode after every launch."""
     functions, kind = _library(), type(program)
     if not functions or hasattr(kind.launch_kernel, "plain"):
         return

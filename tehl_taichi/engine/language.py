@@ -1,8 +1,8 @@
-"""Taichi, as every module takes it: `from tehl_taichi.engine.language import ti`. Another engine of the same language is named
+"""Taichi for all modules: `from tehl_taichi.engine.language import ti`. Another engine with the same language would be named
 here and in `taichi_patches`, nowhere else.
 
-Its decorators look for the class that a function stands in in the source of the module, at every one: 1.3 s of a coarse run
-(64x16), none here. What else is asked again and again: :mod:`tehl_taichi.engine.taichi_patches.fast_tracing`.
+Taichi's decorators search the source of the module for the class of every function: 1.3 s of a coarse run (64x16), none here.
+Other repeated requests: :mod:`tehl_taichi.engine.taichi_patches.fast_tracing`.
 """
 
 import contextlib
@@ -19,7 +19,7 @@ give_home()
 
 @contextlib.contextmanager
 def _line_only():
-    """The line of a frame is all that a decorator wants to know; the whole source of its module is looked for."""
+    """Give Taichi's decorators only the line of a frame; otherwise they read the whole source of its module."""
     known = inspect.getframeinfo
     inspect.getframeinfo = lambda f, context=1: (f.f_code.co_filename, f.f_lineno, f.f_code.co_name,
                                                  [linecache.getline(f.f_code.co_filename, f.f_lineno)], 0)
@@ -36,12 +36,12 @@ __all__ = ["attempt", "ti"]
 
 
 def _in_class(level_of_class_stackframe):
-    """Whether the decorated function stands in a class; the level is that of the frame around it."""
+    """Whether the decorated function is in a class; the level is that of the surrounding frame."""
     return "__qualname__" in sys._getframe(level_of_class_stackframe - 1).f_locals
 
 
 def attempt(change):
-    """change(), which leaves everything as it is where it raises what an unexpected Taichi gives rise to."""
+    """Call change(); if it raises an error that an unexpected Taichi causes, nothing is changed."""
     try:
         change()
     except (ImportError, AttributeError, AssertionError):  # another Taichi: slower, not broken
@@ -49,7 +49,9 @@ def attempt(change):
 
 
 def _ask_less():
-    """Raises AttributeError or ImportError where Taichi looks otherwise than expected: then nothing is changed."""
+    """Patch these requests. Raises AttributeError or ImportError, without any change, if Taichi differs from the expected
+    version.
+    """
     from taichi.lang import kernel_impl
 
     assert callable(kernel_impl._inside_class)

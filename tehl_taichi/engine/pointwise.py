@@ -1,4 +1,4 @@
-"""Functions of one point that work for numbers, for arrays and in kernels, on lanes too; without taichi until a kernel asks.
+"""Functions of one point for numbers, arrays and kernels, also on lanes; without taichi until a kernel uses them.
 
 Laws are written with the functions below, which have numpy's names, and with :func:`pointwise` or :func:`unrolled`.
 """
@@ -12,13 +12,13 @@ import numpy as np
 
 
 def in_kernel():
-    """Whether Taichi traces a kernel now."""
+    """Whether Taichi is tracing a kernel."""
     impl = sys.modules.get("taichi.lang.impl")
     return impl is not None and impl.inside_kernel()
 
 
 class Pointwise:
-    """function(*arguments) outside of kernels; inside them what traced() gives, requested once."""
+    """Callable: function(*arguments) outside of kernels; inside them the result of traced(), made once."""
 
     _is_taichi_function = False  # its existence marks the object as callable in kernels for Taichi
 
@@ -31,7 +31,8 @@ class Pointwise:
 
 
 def pointwise(function):
-    """Decorator: what Taichi compiles; plain arithmetic, the functions below and other laws, no loops and no choices.
+    """Decorator for functions that Taichi compiles: plain arithmetic, the functions below and other laws; no loops and no
+    choices.
 
     The first argument carries the numbers of the law: they become constants of the kernel.
     """
@@ -39,7 +40,9 @@ def pointwise(function):
 
 
 def unrolled(function):
-    """Decorator: what Python runs while a kernel is traced, for loops over constants and for choices between laws."""
+    """Decorator for functions that Python runs while a kernel is traced, for loops over constants and for choices between
+    laws.
+    """
     return Pointwise(function, lambda: function)
 
 

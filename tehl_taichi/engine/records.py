@@ -1,6 +1,6 @@
-"""Numbers with names that kernels take: a struct there, filled by name here.
+"""Named numbers for kernels: a struct there, filled by name here.
 
-Bound launches hold arrays by address, so that numbers may change from step to step; a struct handed over by value could not.
+Bound launches hold arrays by address, so the numbers may change from step to step; a struct passed by value could not.
 """
 
 import numpy as np
@@ -9,9 +9,9 @@ from tehl_taichi.engine.language import ti
 
 
 class Record:
-    """The numbers of a `ti.dataclass` of f64, in the order of its members, as the array `values` that launches hold.
+    """Numbers of a `ti.dataclass` of f64, in the order of its members, as the array `values` that launches hold.
 
-    Kernels get the struct back by :func:`read`. Raises KeyError for a name that the struct does not have.
+    Kernels read the struct with :func:`read`. Raises KeyError for a name that is not in the struct.
     """
 
     def __init__(self, kind, **numbers):
@@ -20,7 +20,7 @@ class Record:
         self.set(**numbers)
 
     def set(self, **numbers):
-        """Set some of the numbers, the others stay."""
+        """Set some of the numbers."""
         for name, number in numbers.items():
             self.values[self.places[name]] = number
 
@@ -30,5 +30,5 @@ class Record:
 
 @ti.func
 def read(kind: ti.template(), values: ti.template()):
-    """The struct `kind` of a :class:`Record`'s values."""
+    """The struct `kind` from the values of a :class:`Record`."""
     return kind(*[values[n] for n in ti.static(range(len(kind.members)))])

@@ -1,4 +1,4 @@
-"""The only place that starts Taichi: architecture and threads, once per process."""
+"""Start of Taichi, only here: architecture and threads, once per process."""
 
 import atexit
 import contextlib
@@ -27,7 +27,7 @@ _grown = 1
 
 
 def preferred_cache():
-    """Folder of compiled kernels as it should be (`TEHL_CACHE`, else below `XDG_CACHE_HOME` or `~/.cache`).
+    """Preferred folder of compiled kernels (`TEHL_CACHE`, else below `XDG_CACHE_HOME` or `~/.cache`).
 
     It is private to this project and version, because one start option below is not part of Taichi's cache key.
     """
@@ -36,14 +36,15 @@ def preferred_cache():
 
 
 def has_kernels():
-    """Whether a process of this version has kept compiled kernels."""
+    """Whether an earlier process of this version has stored compiled kernels."""
     return any(preferred_cache().glob("*.tic"))
 
 
 @functools.lru_cache(maxsize=1)
 def cache_dir():
-    """Folder of compiled kernels that can be written to: the wanted one, or one for this process alone with what that holds
-    and a warning (Taichi itself dies at the end of the process when it cannot write its kernels)."""
+    """Writable folder of compiled kernels: the preferred one, or, with a warning, one for this process with a copy of its
+    contents (Taichi crashes at the end of the process if it cannot write its kernels).
+    """
     requested = preferred_cache()
     try:
         requested.mkdir(parents=True, exist_ok=True)
@@ -57,7 +58,7 @@ def cache_dir():
 
 
 def _borrowed(requested):
-    """A folder for this process alone with the kernels that can be read."""
+    """Folder for this process with a copy of the readable kernels."""
     folder = Path(tempfile.mkdtemp(prefix="tehl-", dir=user_folders.temporary()))
     atexit.register(_give_up, folder)
     with contextlib.suppress(OSError):
@@ -74,13 +75,14 @@ def _give_up(folder):
 
 
 def chosen(arch=None):
-    """The arch that counts: this one, else that of a start before, else the environment variable TEHL_ARCH, else "cpu"."""
+    """Architecture: the given one, else that of an earlier start, else the environment variable TEHL_ARCH, else "cpu"."""
     return arch or _started.get("arch") or os.environ.get("TEHL_ARCH") or "cpu"
 
 
 def check(arch=None, threads=None):
-    """Refuse what no process of this machine can have, or this one no more, without starting anything. Raises
-    RuntimeUnavailable."""
+    """Refuse an architecture or number of threads that this machine or process cannot have, without starting anything. Raises
+    RuntimeUnavailable.
+    """
     arch = chosen(arch)
     if arch not in ARCHES:
         raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
@@ -93,7 +95,7 @@ def check(arch=None, threads=None):
 
 
 def _driven():
-    """Refuse a missing graphics card: Taichi would use the cores without a message."""
+    """Refuse a missing graphics card: Taichi would silently use the cores."""
     try:
         ctypes.CDLL(DRIVER)
     except OSError:
@@ -102,13 +104,11 @@ def _driven():
 
 
 def start(arch=None, threads=None):
-    """Start Taichi and say what was really started.
+    """Start Taichi. Returns a dict with the actual arch, threads, taichi (version) and cache (folder).
 
-    arch: "cpu", or "cuda" (experimental, slower at present: docs/performance.md), by default see :func:`chosen`; threads:
-    number of CPU threads, or None for all cores that this process may use. Returns a dict with arch, threads, taichi (version)
-    and cache (folder).
-    Raises RuntimeUnavailable when arch or threads cannot be had, another start is already active, or Taichi runs in another
-    thread or in the process that this one was forked from.
+    arch: "cpu", or "cuda" (experimental, slower at present: docs/performance.md), default see :func:`chosen`; threads: number
+    of CPU threads, or None for all available cores. Raises RuntimeUnavailable if arch or threads are not available, if Taichi
+    was started with others, or if it runs in another thread or in the parent of this forked process.
     """
     check(arch, threads)
     arch, threads = chosen(arch), int(threads or cores.available())
@@ -147,7 +147,7 @@ def _start(arch, threads):
 
 
 def ensure():
-    """Start with the defaults unless something is running already. Raises RuntimeUnavailable where that is out of reach."""
+    """Start with the defaults unless Taichi is running. Raises RuntimeUnavailable."""
     if not _started:
         return start()
     _check_home()
@@ -155,12 +155,14 @@ def ensure():
 
 
 def start_or_join(arch=None, threads=None):
-    """As :func:`start`; threads = None: those of a start before, if there was one."""
+    """Start as :func:`start`; threads=None: those of an earlier start, if any."""
     return start(arch, threads if threads is not None or not _started else _started["threads"])
 
 
 def _check_home():
-    """Taichi adds to its program from the thread that started it only, and a forked process has none of its threads."""
+    """Refuse another thread or a forked process: Taichi extends its program only in the thread that started it, and a fork has
+    none of its threads.
+    """
     process, thread = _home
     if os.getpid() != process:
         raise RuntimeUnavailable("Taichi was started before this process was forked and would block; use "
@@ -171,8 +173,9 @@ def _check_home():
 
 
 def leave(code):
-    """End this process at once after its kernels are written: the system frees the memory faster than Taichi does (0.2 of the 3
-    s of a steady circle). Returns if nothing was started here, or if this Taichi is unknown."""
+    """End this process at once after writing its kernels: the system frees the memory faster than Taichi does (0.2 of the 3 s
+    of a steady circle). Returns if nothing was started here, or if this Taichi is unknown.
+    """
     if not _started or _home[0] != os.getpid():
         return
     from taichi.lang import impl
@@ -185,22 +188,24 @@ def leave(code):
 
 
 def alone(work):
-    """Whether a loop of `work` (in units of the lane vectors that a copy moves) is better run by the calling thread.
+    """Whether a loop of `work` (in lane-vector copies) is faster in the calling thread.
 
-    To hand a loop to Taichi's threads takes 20 us at once and 50 to 100 us after some work outside, a copy 30 ns a vector.
+    Starting a loop on Taichi's threads takes 20 us immediately after another one, 50 to 100 us after other work; a copy takes
+    30 ns per vector.
     """
     return not by_phases() and (ensure()["threads"] == 1 or _grown * work < WORTH_THREADS)
 
 
 def by_phases():
-    """Whether each phase of jobs is a launch of its own, a job a thread, as on a graphics card: it does not promise that all
-    threads of a kernel run at once, so that they must not wait for each other."""
+    """Whether each phase of jobs is a separate launch with one job per thread, as on a graphics card, whose threads may not run
+    at once and so must not wait for each other.
+    """
     return ensure()["arch"] != "cpu"
 
 
 @contextlib.contextmanager
 def grown(times):
-    """Inside, loops run as those of so many times their work do: by existing kernels, in place of others."""
+    """Context manager: treat loops as if they had `times` their work, so that existing kernels are used."""
     global _grown
     before, _grown = _grown, times
     try:
@@ -219,7 +224,7 @@ def _same_start(arch, threads):
 
 
 class _no_banner:
-    """Taichi prints a banner to stdout, which must stay clean for `--json`; failures are exceptions."""
+    """Suppresses Taichi's banner on stdout, which must stay clean for `--json`; errors are exceptions."""
 
     def __enter__(self):
         sys.stdout.flush()

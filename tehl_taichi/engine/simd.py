@@ -2,11 +2,11 @@
 
 Measured on one core at 257x65 (scalar rows -> lanes): line solve 0.56 -> 0.13 ms, Jacobian product 0.95 -> 0.2 ms.
 
-Loops over blocks run in parallel with ti.loop_config(block_dim=1): Taichi would give less than about 100 blocks to one
-thread. The argument `alone` of a kernel is True where its loops are too short for that (see :meth:`Levels.launch`).
+Loops over blocks run in parallel with ti.loop_config(block_dim=1): Taichi would give less than about 100 blocks to one thread.
+The argument `alone` of a kernel is True if its loops are too short for that (see :meth:`Levels.launch`).
 
-Kernels of the linear solve are written once for both precisions: their numbers are those of their table J, constants come from
-:func:`L`, and arrays without a type take that of what is handed over.
+Kernels of the linear solve are written once for both precisions: they use the type of their table J, constants come from
+:func:`L`, and arrays without a type take that of the argument.
 """
 
 from tehl_taichi.engine.language import ti
@@ -41,13 +41,13 @@ def cells(G: ti.template(), l):
 
 @ti.func
 def tiles(nx, ny):
-    """Number of tiles of the finest level: pieces of blocks, for loops that are long enough in each column."""
+    """Number of tiles of the finest level: pieces of blocks, for loops with enough work in each column."""
     return (ny // W + 1) * (nx // TILE + 1)
 
 
 @ti.func
 def tile(c, nx):
-    """Block, first column and the one behind the last of tile c."""
+    """(block, first column, end column) of tile c."""
     per = nx // TILE + 1
     first = c % per * TILE
     return c // per, first, ti.min(first + TILE, nx + 1)
@@ -76,15 +76,16 @@ def block_at(G: ti.template(), c, i):
 
 @ti.func
 def columns_around(at: ti.template(), q):
-    """Column q in the blocks before and behind that of the place `at`; where there is no such block, q."""
+    """Column q in the blocks before and behind that of the place `at`; q itself if there is no such block."""
     n2 = at.nx + 1
     return q - (n2 if at.s > 0 else 0), q + (n2 if at.s < at.ny // W else 0)
 
 
 @ti.func
 def rows_around(at: ti.template(), here, before, behind):
-    """Values at j - 1 and j + 1 of a block of rows, from those of the blocks before and behind; where there is no such row,
-    at j."""
+    """Values at j - 1 and j + 1 of a block of rows, from it and the blocks before and behind; the value at j if there is no
+    such row.
+    """
     lower, upper = here, here
     for u in ti.static(range(W - 1)):
         lower[u + 1], upper[u] = here[u], here[u + 1]
@@ -97,7 +98,7 @@ def rows_around(at: ti.template(), here, before, behind):
 
 @ti.func
 def repeated(values, s, ny):
-    """Values of the rows of block s, those beyond the last row as this."""
+    """Values of the rows of block s; rows beyond the last one repeat it."""
     last = values[W - 1]
     for u in ti.static(range(W)):
         last = ti.select(s * W + u == ny, values[u], last)
@@ -128,7 +129,7 @@ def below(S: ti.template(), row, k, n2):
 
 @ti.func
 def face_weights(s, ny):
-    """Weights of the y fluxes at j + 1/2 and j - 1/2 in the balance of row j: mirrored at 0, none beyond the last row."""
+    """Weights of the y fluxes at j + 1/2 and j - 1/2 in the balance of row j: mirrored at 0, zero beyond the last row."""
     up, down = V(0.0), V(0.0)
     for u in ti.static(range(W)):
         j = s * W + u
@@ -141,7 +142,7 @@ def face_weights(s, ny):
 
 @ti.func
 def neighbour_masks(G: ti.template(), l, s):
-    """1 where row j + 1 (j - 1) exists among the unknowns."""
+    """Masks: 1 if row j + 1 (j - 1) exists among the unknowns."""
     up, down = V(0.0), V(0.0)
     for u in ti.static(range(W)):
         j = s * W + u
@@ -166,7 +167,7 @@ def lanes_out(values: ti.template(), q, v):
 
 @ti.kernel
 def put(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone: ti.template()):
-    """S[row] of level l from values (ny+1, nx+1); ghosts repeat the last row."""
+    """Copy values (ny+1, nx+1) to S[row] of level l; ghosts repeat the last row."""
     nx, ny, off = cells(G, l)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
@@ -179,7 +180,7 @@ def put(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone
 
 @ti.kernel
 def get(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone: ti.template()):
-    """values (nx+1, ny+1) from S[row] of level l: that way round a step is stored."""
+    """Copy S[row] of level l to values (nx+1, ny+1), the orientation of stored steps."""
     nx, ny, off = cells(G, l)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
@@ -191,13 +192,15 @@ def get(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone
 
 
 def one_of(fields, field):
-    """The first arguments of :func:`fill` for one of these fields."""
+    """First arguments of :func:`fill` for one of these fields."""
     return fields, next(n for n, other in enumerate(fields) if other is field)
 
 
 @ti.kernel
 def fill(fields: ti.template(), which: ti.i32, row: ti.i32, first: ti.i32, values: LinearTable):
-    """fields[which][row, first ...] = values (entries, lanes): one kernel for several, as each takes 12 ms to load."""
+    """Set fields[which][row, first ...] = values (entries, lanes): one kernel for several fields, as each takes 12 ms to
+    load.
+    """
     for n in range(values.shape[0]):
         for k in ti.static(range(len(fields))):
             if which == k:
@@ -207,7 +210,7 @@ def fill(fields: ti.template(), which: ti.i32, row: ti.i32, first: ti.i32, value
 
 @ti.kernel
 def clear_ghosts(S: ti.template(), G: Table, row: ti.i32, last: ti.i32):
-    """S[row] = 0 in the lanes beyond lane `last` of the last block of the finest level."""
+    """Set S[row] = 0 in the lanes beyond lane `last` of the last block of the finest level."""
     nx, ny, off = cells(G, 0)
     for i in range(nx + 1):
         for u in ti.static(range(W)):

@@ -1,10 +1,10 @@
-"""Workers of one kernel that share the jobs of one phase after another: no launch and no sleeping thread in between.
+"""Workers of one kernel that share the jobs of consecutive phases: no launch and no sleeping thread in between.
 
-A ticket is (round, phase, job) in one number, taken by an atomic addition. Who finishes the last job of a phase decides what
-follows (serially, alone) and publishes the next round; the others wait for it, spinning. No worker waits for a worker without a
-job: one that starts late, or never, is not missed, so that no number of workers can hang. Who has waited for long (his mate has
-lost its core in the middle of a job) leaves the kernel; the mate finishes alone. Jobs do not depend on who does them, and
-sums are added in their order: the bits are the same for any number of workers.
+A ticket is (round, phase, job) in one number, taken by an atomic addition. The worker that finishes the last job of a phase
+decides the next one (serially, alone) and publishes the next round; the others wait for it, spinning. No worker waits for a
+worker without a job: one that starts late or never is not missed, so any number of workers finishes. A worker that has waited
+too long (another lost its core in the middle of a job) leaves the kernel; the other finishes alone. Jobs do not depend on the
+worker, and sums are added in their order: the bits are equal for any number of workers.
 """
 
 import numpy as np
@@ -38,13 +38,13 @@ def job_of(ticket):
 
 @ti.func
 def last_one(sync: ti.template(), jobs):
-    """Count a finished job; whether it was the last of `jobs`. If so, no other worker works until :func:`publish`."""
+    """Count a finished job; returns whether it was the last of `jobs`. If so, no other worker works until :func:`publish`."""
     return ti.atomic_add(sync[DONE], ti.cast(1, ti.i64)) == jobs - 1
 
 
 @ti.func
 def publish(sync: ti.template(), ticket, phase):
-    """Begin `phase` after that of `ticket`; negative: it was the last."""
+    """Begin `phase` after that of `ticket`; a negative phase ends the kernel."""
     ti.atomic_and(sync[DONE], ti.cast(0, ti.i64))
     ticket_of_phase = ((ticket >> (JOB_BITS + PHASE_BITS)) + 1) << PHASE_BITS
     ticket_of_phase |= ti.cast(NO_PHASE if phase < 0 else phase, ti.i64)
@@ -53,7 +53,7 @@ def publish(sync: ti.template(), ticket, phase):
 
 @ti.func
 def waited(sync: ti.template(), ticket):
-    """Wait for the phase after that of `ticket`; False: in vain."""
+    """Wait for the phase after that of `ticket`; returns False if the wait was too long."""
     polls, patience = ti.cast(0, ti.i64), sync[PATIENCE]
     while polls < patience and (ti.atomic_or(sync[TICKET], ti.cast(0, ti.i64)) >> JOB_BITS) == (ticket >> JOB_BITS):
         polls += 1
@@ -66,26 +66,30 @@ _launches = np.zeros(2, int)  # of teams of several, and those of them that fewe
 
 
 def crowding():
-    """Launches by several workers in this process so far, and how many of them fewer finished, or were asked to, because one
-    had lost its core to another process: an array of two."""
+    """Array of two: launches by several workers in this process so far, and those that fewer workers finished, or were started
+    with, because one had lost its core to another process.
+    """
     return _launches.copy()
 
 
 def team_size(jobs):
-    """Workers of phases of so many jobs at most: no more than the threads of the engine; on a card one a job."""
+    """Number of workers for phases of at most `jobs` jobs: at most the threads of the engine; on a graphics card one per
+    job.
+    """
     if runtime.by_phases():
         return jobs
     return max(1, min(jobs, runtime.ensure()["threads"], cores.available()))
 
 
 def kernel_of(workers, one_phase):
-    """The kernel of `workers`, or where threads do not wait for each other that of `one_phase`, a job a thread, which leaves
-    in TICKET what follows (negative: nothing). Both take the same."""
+    """The kernel `workers`; on a graphics card `one_phase`, with one job per thread, which leaves the next phase in TICKET
+    (negative: none). Both take the same arguments.
+    """
     return one_phase if runtime.by_phases() else workers
 
 
 class Team:
-    """Number of workers from launch to launch, at most :func:`team_size`; `sync` is what kernels take."""
+    """Number of workers, adapted from launch to launch, at most :func:`team_size`; `sync` is the argument for kernels."""
 
     def __init__(self, jobs, patience=LONG):
         self.size = team_size(jobs)
@@ -96,14 +100,16 @@ class Team:
         self.alone, self.pause = 0, FIRST_PAUSE
 
     def run(self, launch, phase=0):
-        """Launch from `phase` on. After a launch that a worker has left, the next ones have one worker: each time more."""
+        """Launch from `phase` on. After a launch that a worker has left, the next launches have one worker, more of them each
+        time.
+        """
         if runtime.by_phases():
             self._one_by_one(launch, phase)
         else:
             self._together(launch, phase)
 
     def _one_by_one(self, launch, phase):
-        """A launch does the phase in TICKET and leaves there which one follows, if any."""
+        """Launch phase by phase: each launch does the phase in TICKET and leaves the next one there, if any."""
         self.sync[TICKET] = phase
         while self.sync[TICKET] >= 0:
             launch()

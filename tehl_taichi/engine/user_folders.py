@@ -1,4 +1,4 @@
-"""Folders of the user, where an environment (a service, a container, a batch job) names none."""
+"""Folders of the user, also in an environment (a service, a container, a batch job) without them."""
 
 import os
 import tempfile
@@ -7,7 +7,7 @@ from tehl_taichi.errors import RuntimeUnavailable
 
 
 def home():
-    """The user's home, or the folder of temporary files where the system knows none. Raises RuntimeUnavailable."""
+    """Home folder of the user, or the folder for temporary files if the system knows none. Raises RuntimeUnavailable."""
     found = os.path.expanduser("~")
     return found if os.path.isabs(found) else temporary()
 
@@ -21,7 +21,7 @@ def temporary():
 
 
 def give_home():
-    """Set HOME where it is missing or empty: Taichi ends the process without it, as soon as it is imported."""
+    """Set HOME if it is missing or empty: without it Taichi ends the process at its import."""
     if not os.environ.get("HOME"):
         os.environ.pop("HOME", None)
         os.environ["HOME"] = home()

@@ -1,4 +1,4 @@
-"""Calls of named functions of this package, each through a wrapper while they are measured."""
+"""Wrapped calls of named functions of this package, for measurements."""
 
 import contextlib
 import importlib
@@ -6,7 +6,9 @@ import importlib
 
 @contextlib.contextmanager
 def wrapped(places, wrapper):
-    """While it lasts, what lies at each place {name: "module:Class.method" of tehl_taichi} is wrapper(name, function)."""
+    """Context manager: replace the function at each place {name: "module:Class.method" of tehl_taichi} by wrapper(name,
+    function).
+    """
     before = []
     for name, place in places.items():
         owner, attribute = _owner(place)

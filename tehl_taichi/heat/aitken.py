@@ -1,4 +1,4 @@
-"""Aitken's relaxation of rounds that overshoot each other (at the outlet)."""
+"""Aitken's relaxation for rounds that alternate about the solution (at the outlet)."""
 
 import numpy as np
 
@@ -6,13 +6,13 @@ LEAST_SHARE = 0.2  # of a round's change that is taken
 
 
 class Relaxation:
-    """The rounds of one step; :meth:`relaxed` after each that is to be relaxed."""
+    """Relaxation of the rounds of one step; call :meth:`relaxed` after each round that needs it."""
 
     def __init__(self):
         self.change, self.share = None, 1.0
 
     def relaxed(self, before, after):
-        """Between the temperatures before and after a round: from the changes of the last two."""
+        """Relaxed temperatures between those before and after a round, from the changes of the last two rounds."""
         change = after - before
         if self.change is not None:
             bend = change - self.change

@@ -1,4 +1,4 @@
-"""Surface temperatures of both bodies, T_s = A + B q: A from the heat of earlier steps, B q from that of the running one."""
+"""Surface temperatures of both bodies, T_s = A + B q: A from the heat of earlier steps, B q from that of the present step."""
 
 import math
 
@@ -12,11 +12,12 @@ from tehl_taichi.scene.scales import Scales, peclet
 
 
 class ConductingBody:
-    """One body: what it is made of, how its surface moves, and what it remembers in a step."""
+    """One body: its material, the motion of its surface, its memory of heat in a step."""
 
     def __init__(self, material, speed, rests, dt, scales):
-        """material: a scene's Body; speed of its surface, m/s; rests: whether it has none; dt: of the step that the memory is
-        made for, s; scales: of the contact."""
+        """material: a Body of the scene; speed: of its surface, m/s; rests: the surface is at rest; dt: time step for which the
+        memory is made, s; scales: of the contact.
+        """
         self.rests, self.speed, self.dt = rests, 0.0 if rests else speed, dt
         self.effusivity = math.sqrt(material.k * material.rho * material.c)
         diffusivity, slab = material.k / (material.rho * material.c), rests and scales.line
@@ -28,8 +29,10 @@ class ConductingBody:
         self.modes, self.drift = np.zeros((4, conduction_modes.MODES)), Record(Drift)
 
     def begin(self, dt, before, after, settled):
-        """Prepare a step of dt s in which its surface passes over the grid from `before` to `after`, in cells; settled: whether
-        it has a memory of a long time with the flux of the step itself. Returns B."""
+        """Prepare a step of dt s in which the surface moves from `before` to `after`, in cells. Returns B.
+
+        settled: the body has the memory of a long time with the flux of this step.
+        """
         known = conduction_modes.memory(dt, self.effusivity, self.dt, self.depth, self.spread)
         for row, values in ((strips.WEIGHT, known.weight), (strips.DECAY, known.decay), (strips.GAIN, known.gain),
                             (strips.GAIN_LAST, known.gain_last)):
@@ -41,14 +44,15 @@ class ConductingBody:
         return known.B + (known.B_last + float((known.weight * known.decay) @ self.settled()))
 
     def settled(self):
-        """What its modes hold after a long time, per flux."""
+        """Modes after a long time, per unit flux."""
         return conduction_modes.steady_modes(self.dt, self.depth, self.spread)
 
 
 class ConductingBodies:
-    """Both bodies under the columns of a film; dt: time step (s) that their memory is made for, shorter ones may be taken too.
+    """Both bodies below the columns of a film.
 
-    steady: surfaces at rest conduct as after a long time, until :meth:`warm_resting`.
+    dt: time step (s) for which their memory is made; shorter steps are possible. steady: surfaces at rest conduct as after a
+    long time, until :meth:`warm_resting`.
     """
 
     def __init__(self, levels, columns, dt):
@@ -70,8 +74,9 @@ class ConductingBodies:
                           for n, body in enumerate(self.each)]
 
     def begin(self, dt, moved=0):
-        """A of both surfaces after a step of dt s in which the grid moves by so many cells, into the columns. Returns B of
-        both."""
+        """Write A of both surfaces after a step of dt s, in which the grid moves by `moved` cells, into the columns. Returns B
+        of both.
+        """
         v = self.levels
         self.until = self.offset + np.array([body.speed for body in self.each]) * dt / (v.dx * v.scales.a) - moved
         B = [body.begin(dt, *way, self.steady and body.rests) for body, *way in zip(self.each, self.offset, self.until)]
@@ -80,14 +85,14 @@ class ConductingBodies:
         return B
 
     def accept(self):
-        """Remember the flux of this step, which becomes the last one."""
+        """Store the flux of this step as that of the last step."""
         for body, remember in zip(self.each, self._remember):
             if not (body.rests and self.steady):
                 remember()
         self.offset = self.until
 
     def warm_resting(self):
-        """Give the bodies whose surfaces rest the memory of a long time with the present heat."""
+        """Give bodies with a surface at rest the memory of a long time with the present heat."""
         self.steady, memory = False, self.memory()
         for n, (body, flux) in enumerate(zip(self.each, (film_tables.QA, film_tables.QB))):
             if body.rests:
@@ -98,7 +103,7 @@ class ConductingBodies:
         self.restore(memory, self.offset)
 
     def cool(self):
-        """Forget all heat."""
+        """Reset all heat to zero."""
         v = self.levels
         self.restore(np.zeros((strips.kept(conduction_modes.MODES), v.ny + 1, v.nx + 1)), np.zeros(2))
 
@@ -107,6 +112,6 @@ class ConductingBodies:
         return self.table.get(0, strips.kept(conduction_modes.MODES))
 
     def restore(self, memory, offset):
-        """Continue from :meth:`memory` and the cells that each body has moved since the start."""
+        """Restore the result of :meth:`memory`; offset: cells that each body has moved since the start."""
         self.table.put(0, memory)
         self.offset = np.array(offset)

@@ -1,4 +1,4 @@
-"""Across the film: Chebyshev-Lobatto nodes, and the polynomials through values at them."""
+"""Chebyshev-Lobatto nodes across the film, and the polynomials through values at them."""
 
 import functools
 
@@ -14,8 +14,9 @@ INTEGRAL, SLOPE, SECOND, BEYOND = range(4)
 
 
 class ChebyshevNodes:
-    """`count` nodes across a film: zeta (n,) their places on [0, 1]; C (n, n) integrals from 0 to each node, D1 and D2 (n, n)
-    first and second derivatives; weights (n,) of the integral over the whole film; table: all of it for kernels."""
+    """`count` nodes across a film. zeta (n,): positions on [0, 1]; C (n, n): integrals from 0 to each node; D1 and D2 (n, n):
+    first and second derivatives; weights (n,): of the integral over the whole film; table: all of them for kernels.
+    """
 
     def __init__(self, count):
         self.zeta, self.C, self.D1, self.D2 = chebyshev(count)
@@ -43,8 +44,10 @@ def chebyshev(count):
 
 
 def largest(T):
-    """Largest value of the polynomials through T (nz, ...): the hottest place of a film lies between nodes, where 9 nodes give
-    up to 2 K less than 17."""
+    """Largest value of the polynomials through T (nz, ...).
+
+    The hottest place of a film is between nodes; the largest value at 9 nodes is up to 2 K lower than at 17.
+    """
     columns = np.asarray(T).reshape(len(T), -1)
     top = columns.max(axis=0)
     near = columns[:, top >= top.max() - NEAR * (top.max() - columns.min())]
@@ -62,11 +65,11 @@ def _maximum(coefficients):
 
 @functools.lru_cache(maxsize=8)
 def _interpolation(count):
-    """Matrices from the values at so many nodes to the Chebyshev series through them, and to their values at FINE places."""
+    """Matrices from the values at `count` nodes to the Chebyshev series through them, and to values at FINE places."""
     series_of = np.linalg.inv(_values(count, count))
     return series_of, _values(FINE, count) @ series_of
 
 
 def _values(places, count):
-    """Values of the first `count` Chebyshev polynomials at so many Lobatto nodes."""
+    """Values of the first `count` Chebyshev polynomials at `places` Lobatto nodes."""
     return series.chebvander(-np.cos(np.pi * np.arange(places) / (places - 1)), count - 1)

@@ -1,14 +1,14 @@
-"""Conduction into the bodies: a half-space that remembers the heat of earlier steps in a few decaying modes.
+"""Conduction into the bodies: a half-space whose thermal history is stored in a few decaying modes.
 
 Each material strip of a body's surface is a one-dimensional half-space (Carslaw & Jaeger, section 2.9; at large Peclet numbers
 conduction along the surface is negligible): T_s(t) = T_0 + int q(t') K(t - t') dt', K = 1/sqrt(pi k rho c t). With K as a sum
-of exponentials the history becomes a few numbers per strip, and the flux of the running step (linear in time) enters exactly:
-T_s = A + B q, B = (4/3) sqrt(dt/pi)/sqrt(k rho c), the same at every node.
+of exponentials the history becomes a few numbers per strip, and the flux of the present step (linear in time) is exact: T_s = A
++ B q, B = (4/3) sqrt(dt/pi)/sqrt(k rho c), equal at every node.
 
-A slow surface of a point contact loses heat sideways (:func:`widths`): K falls by 1/sqrt((1 + 4 alpha t/w_x^2)(1 + 4 alpha
+A slow surface of a point contact also conducts sideways (:func:`widths`): K falls by 1/sqrt((1 + 4 alpha t/w_x^2)(1 + 4 alpha
 t/w_y^2)), as beside a Gaussian spot of widths w (Carslaw & Jaeger, section 10.3). A surface at rest of a line contact has no
-steady temperature on a half-space. It gets a slab of depth REST (in a) on ambient temperature, the resistance of which,
-depth/k, is about that of a strip of width 2a on a body some 10 a thick.
+steady temperature on a half-space. It gets a slab of depth REST (in a) at ambient temperature below; its resistance, depth/k,
+is about that of a strip of width 2a on a body about 10 a thick.
 """
 
 import math
@@ -30,8 +30,9 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
 
 
 class ModeMemory(NamedTuple):
-    """Modes of a body in a step: of each (MODES,) its weight, its decay over the step, what it gains by the new flux and by the
-    last one; B of T_s = A + B q, and B of the last flux, which is in A."""
+    """Modes of a body in a step: for each mode (MODES,) its weight, its decay over the step, and its gains by the new and the
+    last flux; B of T_s = A + B q; B of the last flux, which is part of A.
+    """
 
     weight: np.ndarray
     decay: np.ndarray
@@ -42,10 +43,11 @@ class ModeMemory(NamedTuple):
 
 
 def widths(peclet, a, b):
-    """(w_x, w_y) of the spot beside which a surface of an elliptic contact loses heat, in the unit of its half-axes a and b.
+    """Widths (w_x, w_y) of the spot that describes sideways conduction of an elliptic contact, in the unit of its half-axes a
+    and b.
 
     peclet: u a/alpha. Fitted to exact steady temperatures of moving half-spaces under Hertzian fluxes (docs/decisions/03): the
-    largest and the mean by flux are right within 8 % for b/a 0.5 to 4 at all speeds, within 5.5 % for circles.
+    largest and the mean temperature per flux are right within 8 % for b/a 0.5 to 4 at all speeds, within 5.5 % for circles.
     """
     return a * (1.064 + 1.632 * peclet**0.696), b * (0.772 + 0.02 * peclet)
 
@@ -53,8 +55,8 @@ def widths(peclet, a, b):
 def memory(dt, effusivity, base_dt, depth=math.inf, spread=NONE):
     """The ModeMemory for a step of dt s with a flux linear in time, fitted for steps of base_dt s.
 
-    effusivity: sqrt(k rho c) of the body, SI; depth: that of a slab over sqrt(diffusivity base_dt), infinite for a half-space;
-    spread: w^2/(4 alpha base_dt) of both :func:`widths`, infinite where no heat is lost sideways.
+    effusivity: sqrt(k rho c) of the body, SI; depth: of a slab, over sqrt(diffusivity base_dt), infinite for a half-space;
+    spread: w^2/(4 alpha base_dt) of both :func:`widths`, infinite without sideways conduction.
     """
     rates, weights = _fit(depth, spread)
     rates, weights = rates / base_dt, weights / (effusivity * math.sqrt(base_dt))
@@ -65,14 +67,15 @@ def memory(dt, effusivity, base_dt, depth=math.inf, spread=NONE):
 
 
 def steady_modes(base_dt, depth, spread=NONE):
-    """What the memory holds after a long time per flux, (MODES,)."""
+    """Modes after a long time, per unit flux, (MODES,)."""
     return base_dt / _fit(depth, spread)[0]
 
 
 @lru_cache(maxsize=8)
 def _fit(depth, spread):
-    """Rates and weights for a step of 1 and effusivity 1: least squares on the response to the flux of one shortest step, at
-    all later times, relative to the exact one."""
+    """Rates and weights for a step of 1 and effusivity 1: least-squares fit of the response to the flux of one shortest step,
+    at all later times, relative to the exact response.
+    """
     slowest, horizon = _range(depth, spread)
     n = np.unique(np.round(np.geomspace(1, horizon / SHORTEST, 600))) * SHORTEST
     exact = _lost(n, spread) if spread != NONE else _warmed(n + SHORTEST, depth) - _warmed(n, depth)
@@ -91,8 +94,9 @@ def _range(depth, spread):
 
 
 def _lost(t, spread):
-    """What a unit flux over one shortest step leaves a time t after its start, beyond that step, while heat is lost sideways: K
-    over the step by Gauss in its root."""
+    """Response at time t to a unit flux over one shortest step, after that step, with sideways conduction: Gauss integration of
+    K over the step in its square root.
+    """
     first, last = np.sqrt(t)[:, None], np.sqrt(t + SHORTEST)[:, None]
     s = (0.5 * (first + last) + 0.5 * (last - first) * POINTS) ** 2
     K = 2 / np.sqrt(math.pi * (1 + s / spread[0]) * (1 + s / spread[1]))

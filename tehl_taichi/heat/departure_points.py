@@ -1,4 +1,4 @@
-"""Origin of the oil of a film: values one and two steps ago at the departure points of its nodes."""
+"""Origin of the oil in a film: values one and two steps ago at the departure points of its nodes."""
 
 from tehl_taichi.engine.elementary import maximum, minimum, within
 from tehl_taichi.engine.language import ti
@@ -19,8 +19,9 @@ def cubic(f):
 
 @ti.dataclass
 class EarlierState:
-    """The state of a node some time ago: kind of its temperature, its number, pressure of its column, how long ago, and by how
-    many cells the grid has moved since."""
+    """An earlier state at a node: kind of its temperature, its number, pressure of its column, its age, and the displacement of
+    the grid (cells) since.
+    """
 
     warm: ti.i32
     node: ti.i32
@@ -31,9 +32,11 @@ class EarlierState:
 
 @ti.func
 def along_x(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.template(), x, inflow):
-    """Temperature and pressure of the past in a block of rows at x (in cells): cubic, within the two nearest values; from the
-    left comes oil of temperature `inflow` and pressure 0. Rows that come from one cell, as nearly all neighbours do, are taken
-    together."""
+    """Temperature and pressure of an earlier state in a block of rows at x (in cells): cubic, within the two nearest values.
+
+    Inflow from the left has temperature `inflow` and pressure 0. Rows from one cell, as nearly all neighbours are, are
+    interpolated together.
+    """
     i0 = int(ti.floor(x[0]))
     together = 1
     for u in ti.static(range(1, W)):
@@ -52,7 +55,7 @@ def along_x(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.
 
 @ti.func
 def from_cell(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.template(), i0, f, inflow):
-    """Departure value for all rows from the cell behind column i0, at the fractions f of it."""
+    """Departure values for all rows from the cell behind column i0, at its fractions f."""
     T4, p4 = [V(inflow) for _ in range(4)], [V(0.0) for _ in range(4)]
     first = at.q - at.i
     for t in ti.static(range(4)):
@@ -69,7 +72,7 @@ def from_cell(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: t
 
 @ti.func
 def across(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.template(), q, moved):
-    """What flow along y changes of temperature and pressure in column q, moved = v dt/dy."""
+    """Change of temperature and pressure by flow along y in column q; moved = v dt/dy."""
     m = past.node
     before, behind = columns_around(at, q)
     T = along_y(at, Z[past.warm, q * nz + m], Z[past.warm, before * nz + m], Z[past.warm, behind * nz + m], moved)
@@ -78,11 +81,11 @@ def across(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.t
 
 @ti.func
 def along_y(at: ti.template(), here, before, behind, moved):
-    """Change of a value by flow along y: quadratic, linear where the value is an extreme; before, behind: in the blocks beside.
+    """Change of a value by flow along y: quadratic, linear at an extreme; before, behind: values in the neighbouring blocks.
 
-    Quadratic alone, two steps of BDF2 leave a sawtooth of rows as it is, however far the oil moves: the row beside the border
-    rested at 257 deg C between rows of 113 and 106, in oil that carries nothing and conducts slowly. So a bend counts up to the
-    smaller of both differences only, as in limiters of slopes (van Leer 1977).
+    Quadratic interpolation alone does not damp a sawtooth of rows in two steps of BDF2, however far the oil moves: the row
+    beside the border stayed at 257 deg C between rows of 113 and 106, in oil that carries nothing and conducts slowly. So the
+    second difference counts only up to the smaller of both first differences, as in slope limiters (van Leer 1977).
     """
     lower, upper = rows_around(at, here, before, behind)
     rise, fall = upper - here, here - lower
@@ -102,7 +105,7 @@ FARTHEST = 1.0
 
 @ti.func
 def origin(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.template(), u, v, step: ti.template(), inflow):
-    """Temperature and pressure of the past at the place where the oil of a node, of the velocities u and v, was then."""
+    """Temperature and pressure of an earlier state at the departure point of a node with velocities u and v."""
     x = at.i + past.moved - u * (past.seconds * step.inv_x)
     T0, p0 = along_x(Z, C, nz, at, past, x, inflow)
     if at.ny > 0:
@@ -121,8 +124,9 @@ def origin(Z: ti.template(), C: ti.template(), nz, at: ti.template(), past: ti.t
 @ti.kernel
 def departures(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, conditions: Flat, numbers: Flat,
                report: Table):
-    """Temperature and pressure where the oil of each node was one and two steps ago (BDF2 along its path): cubic along x,
-    quadratic along y with a limited bend; in tiles that do not rest."""
+    """Compute temperature and pressure at the departure points one and two steps ago (BDF2 along the path): cubic along x,
+    quadratic along y with a limited second difference; in tiles that are not skipped.
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
@@ -146,7 +150,7 @@ def departures(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, n
 
 @ti.kernel
 def accept(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, p_H: ti.f64):
-    """The present state becomes that of the last step."""
+    """Store the present state as that of the last step."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):

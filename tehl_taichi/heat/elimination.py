@@ -1,12 +1,14 @@
-"""A small full system of equations for each lane of a column: X[c, n nz + m] the matrix, X[c, nz nz + n] the right side."""
+"""Full linear system for each lane of a column: X[c, n nz + m] the matrix, X[c, nz nz + n] the right side."""
 
 from tehl_taichi.engine.language import ti
 
 
 @ti.func
 def eliminate(X: ti.template(), c, nz):
-    """Solve the system in X[c] in place (conduction makes it safe without pivoting); the solution takes the right side, the
-    inverse pivots the diagonal. (x -= y on a field would be atomic.)"""
+    """Solve the system in X[c] in place (conduction makes it safe without pivoting).
+
+    The solution replaces the right side, the inverse pivots the diagonal. (x -= y on a field would be atomic.)
+    """
     rhs = nz * nz
     for d in range(nz):
         inverse = 1.0 / X[c, d * nz + d]

@@ -1,7 +1,7 @@
-"""The energy equation in the columns of a film (see :mod:`tehl_taichi.heat.film`), model.md section 6.
+"""Energy equation in the columns of a film (see :mod:`tehl_taichi.heat.film`), model.md section 6.
 
-In time along the paths of the oil (BDF2); through the film implicit, conduction, both heat sources, both walls (T_s = A + B q
-of the bodies) and the flow through the moving nodes in one Newton system per column.
+In time along the paths of the oil (BDF2); across the film implicit: conduction, both heat sources, both walls (T_s = A + B q of
+the bodies) and the flow through the moving nodes form one Newton system per column.
 """
 
 from tehl_taichi.engine.elementary import log, maximum, minimum
@@ -68,7 +68,7 @@ BETA, THROUGH = VY, U  # the velocities' slots, used again once the departure po
 
 @ti.dataclass
 class EnergyColumn:
-    """A column as the energy equation sees it, besides its flow."""
+    """Quantities of a column in the energy equation, besides its flow."""
 
     p: V  # Pa
     h: V  # m, at least the floor
@@ -93,7 +93,7 @@ class EnergyNode:
 
 @ti.dataclass
 class Sources:
-    """Heat at a node, and how it depends on the temperatures."""
+    """Heat sources at a node, and their derivatives by the temperatures."""
 
     viscous: V  # W/m3, dissipation of the film
     heat: V  # W/m3, that or boundary friction
@@ -103,13 +103,13 @@ class Sources:
 
 @ti.func
 def same_place(at: ti.template(), moved):
-    """Column that was here when the grid had still to move so many cells."""
+    """Column that was at this place when the grid had still to move by `moved` cells."""
     return at.q - at.i + ti.min(ti.max(at.i + int(moved), 0), at.nx)
 
 
 @ti.func
 def outflow(Z: ti.template(), at: ti.template(), nz, n, step: ti.template()):
-    """rho w minus what the moving nodes take along: -(d/dt, d/dx, d/dy) of the mass (flux) below node n."""
+    """Flow rho w relative to the moving nodes: -(d/dt, d/dx, d/dy) of the mass (flux) below node n."""
     q, left, right = at.q, ti.min(at.i, 1), ti.min(at.nx - at.i, 1)
     last, before = same_place(at, step.moved), same_place(at, step.moved_2)
     out = (Z[MS, q * nz + n] - step.near * Z[MSN, last * nz + n] - step.far * Z[MSNN, before * nz + n]) * step.rate
@@ -127,7 +127,9 @@ def outflow(Z: ti.template(), at: ti.template(), nz, n, step: ti.template()):
 
 @ti.func
 def prepare(Z: ti.template(), at: ti.template(), nz, oil: ti.template(), p, ln_eta0, step: ti.template()):
-    """What the Newton steps of a column share: the flow through its nodes and -d ln eta/d Gamma; keeps the last iterate."""
+    """Compute the values that all Newton steps of a column share: the flow through its nodes and -d ln eta/d Gamma; stores the
+    last iterate.
+    """
     q, total = at.q, outflow(Z, at, nz, nz - 1, step)
     thinning(Z, q, nz, oil, p, ln_eta0)
     for n in range(nz):
@@ -138,7 +140,7 @@ def prepare(Z: ti.template(), at: ti.template(), nz, oil: ti.template(), p, ln_e
 
 @ti.func
 def thinning(Z: ti.template(), q, nz, oil: ti.template(), p, ln_eta0):
-    """-d ln eta/d Gamma at the nodes of a column."""
+    """Compute -d ln eta/d Gamma at the nodes of a column."""
     for n in range(nz):
         Z[BETA, q * nz + n] = (ln_eta0 - log(Z[NIE, q * nz + n]) - ln_eta(oil, p, Z[T, q * nz + n] + DT)) / DT
 
@@ -146,7 +148,7 @@ def thinning(Z: ti.template(), q, nz, oil: ti.template(), p, ln_eta0):
 @ti.func
 def heated(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template(), oil: ti.template(),
            rheology: ti.template(), scene: ti.template()):
-    """The EnergyColumn of a place."""
+    """The EnergyColumn at a place."""
     p, h = pressure_and_film(S, G, at.k, scene)
     fade = V(1.0)
     if at.i > scene.centre:
@@ -159,9 +161,11 @@ def heated(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template
 
 @ti.dataclass
 class Work:
-    """What the shear of a column does, over its 1/eta: stresses (Pa) by the sliding, and by lever times the gradients along it
-    and across; the first's square by ln of the Newtonian stress; heat of the slip along one wall, W/m2, with its derivative by
-    e0, and along both."""
+    """Work of the shear in a column, over its 1/eta.
+
+    Stresses (Pa) by the sliding, and by lever times the gradients along and across it; derivative of the first one's square by
+    ln of the Newtonian stress; heat of the slip along one wall, W/m2, with its derivative by e0; heat along both walls.
+    """
 
     sliding: V
     along: V
@@ -174,16 +178,17 @@ class Work:
 
 @ti.func
 def inside_film(tau, newtonian, slip):
-    """Work of the sliding inside the film, over 1/eta: of what does not slip along a wall."""
+    """Work of the sliding inside the film, over 1/eta: of the part that does not slip along a wall."""
     return tau * newtonian * (1.0 - slip)
 
 
 @ti.func
 def work(rheology: ti.template(), col: ti.template(), flow: ti.template(), scene: ti.template()):
-    """The Work of a column. Together its heats are tau u_s + p_x q, q: what the gradient carries. Where oil slips along a wall,
-    bend is that of a rate which stays: at a stress that stays Newton steps swing between films that slip and those that do not.
-    What the pressure drives is the flow of its balance of mass, whatever the temperatures: with a flow that rises with them hot
-    walls would become hotter without an end.
+    """The Work of a column. Together its heats are tau u_s + p_x q, where q is the flow driven by the gradient.
+
+    Where oil slips along a wall, the derivative is that at a constant rate: at a constant stress Newton steps alternate between
+    films with and without slip. The flow driven by the pressure is that of the mass balance, whatever the temperatures: if it
+    rose with them, hot walls would heat without limit.
     """
     law = sheared(rheology, col, flow, scene)
     wall = wall_stress(col, col.px, scene)
@@ -212,17 +217,21 @@ def sources(node: ti.template(), col: ti.template(), flow: ti.template(), done: 
 
 @ti.func
 def one_sided(N: ti.template(), n, swept, conduction):
-    """Part of the flow through node n whose slope is that to the node it comes from: from where it carries twice what is
-    conducted on, all of it from four times on. Nine nodes do not resolve a swift flow across the film: in the eddies of the
-    inlet of a cold film polynomials through them swing by hundreds of K."""
+    """Part of the flow through node n that uses a one-sided slope towards its origin: from convection of twice the conduction
+    on, fully from four times.
+
+    Nine nodes do not resolve a fast flow across the film: in the eddies of the inlet of a cold film, polynomials through them
+    oscillate by hundreds of K.
+    """
     distance = ti.select(swept > 0.0, zeta(N, n) - zeta(N, n - 1), zeta(N, n + 1) - zeta(N, n))
     return minimum(maximum(0.5 * ti.abs(swept) * distance / conduction - 1.0, 0.0), 1.0)
 
 
 @ti.func
 def turn_upstream(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(), n, swept):
-    """`swept`, a part of the flow through node n, carries by the slope to the node that it comes from: into row n of the
-    matrix. Returns what it adds to the balance."""
+    """Add `swept`, a part of the flow through node n with a one-sided slope, to row n of the matrix. Returns its contribution
+    to the balance.
+    """
     q, c, nz, balance = at.q, at.c, N.shape[1], V(0.0)
     for side in ti.static((-1, 1)):
         brought = maximum(-side * swept, 0.0) * (1.0 / ti.abs(zeta(N, n + side) - zeta(N, n)))
@@ -235,7 +244,7 @@ def turn_upstream(Z: ti.template(), X: ti.template(), N: ti.template(), at: ti.t
 @ti.func
 def assemble(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(), col: ti.template(),
              oil: ti.template(), rheology: ti.template(), scene: ti.template(), step: ti.template()):
-    """Newton equations of the inner nodes, see :mod:`elimination`; the right side is minus the residual."""
+    """Assemble the Newton equations of the inner nodes, see :mod:`elimination`; the right side is minus the residual."""
     q, c, nz = at.q, at.c, N.shape[1]
     flow = couette(Z, N, q, col.h, scene)
     done = work(rheology, col, flow, scene)
@@ -265,8 +274,9 @@ def assemble(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.templat
 @ti.func
 def assemble_slip(X: ti.template(), C: ti.template(), N: ti.template(), at: ti.template(), col: ti.template(),
                   flow: ti.template(), done: ti.template(), crest, step: ti.template()):
-    """Heat of the oil that slips along the wall where the stress is largest, at a crest of the pressure along both, into the
-    equations of those; kept in C."""
+    """Add the heat of wall slip to the equation of the wall with the larger stress, at a pressure crest to both; stored in
+    C.
+    """
     c, q, nz, last = at.c, at.q, N.shape[1], N.shape[1] - 1
     counts = ti.select(col.touch > 0.0, V(0.0), col.fade)
     more_at_b = 0.5 * flow.sign * col.h * col.px / maximum(crest, SMALL)
@@ -292,7 +302,9 @@ def wall_slopes(Z: ti.template(), N: ti.template(), q):
 @ti.func
 def assemble_walls(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(), transfer,
                    step: ti.template()):
-    """Equations of both walls, T_s = A + B q, after :func:`assemble`; transfer: conductivity over film thickness."""
+    """Assemble the equations of both walls, T_s = A + B q, after :func:`assemble`; transfer: conductivity over film
+    thickness.
+    """
     q, c, nz = at.q, at.c, N.shape[1]
     last = nz - 1
     flux_a, flux_b = wall_slopes(Z, N, q)
@@ -307,8 +319,11 @@ def assemble_walls(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.t
 
 @ti.func
 def update(Z: ti.template(), X: ti.template(), at: ti.template(), nz, coldest, part, solved):
-    """Add this part of the Newton step to the temperatures of the rows that are `solved` (1, else 0). Returns the largest
-    change (K) of the whole step, its sum over the nodes of each row, and how many nodes were held in range."""
+    """Add this part of the Newton step to the temperatures of the rows with `solved` = 1.
+
+    Returns the largest change (K) of the whole step, its sum over the nodes of each row, and the number of nodes limited to the
+    allowed range.
+    """
     moved, total, held = V(0.0), V(0.0), V(0.0)
     for n in range(nz):
         change = ti.select(solved > 0.0, minimum(maximum(X[at.c, nz * nz + n], -LONGEST), LONGEST), V(0.0))
@@ -321,7 +336,7 @@ def update(Z: ti.template(), X: ti.template(), at: ti.template(), nz, coldest, p
 
 @ti.func
 def largest_row(values, at: ti.template()):
-    """Row of the largest of values >= 0, in the rows that are no ghosts."""
+    """Row with the largest of values >= 0, without ghosts."""
     out = 0.0
     for u in ti.static(range(W)):
         if at.s * W + u <= at.ny:
@@ -340,7 +355,7 @@ def sum_of_rows(values, at: ti.template()):
 
 @ti.func
 def change_of_column(Z: ti.template(), at: ti.template(), nz, counts):
-    """Largest change against the last iterate, K; counts: 1 in the rows that do, else 0."""
+    """Largest change (K) from the last iterate; counts: 1 in the rows to include, else 0."""
     change = V(0.0)
     for n in range(nz):
         change = maximum(change, ti.abs(Z[T, at.q * nz + n] - Z[LAST, at.q * nz + n]))
@@ -349,7 +364,7 @@ def change_of_column(Z: ti.template(), at: ti.template(), nz, counts):
 
 @ti.func
 def paced(part, turned):
-    """Part of the next step to take: half as much where steps go to and fro (turned < 0), more where they creep."""
+    """Part of the next Newton step to take: half if steps alternate (turned < 0), more if they creep."""
     return ti.max(0.5 * part, LEAST) if turned < 0.0 else ti.min(2.0 * part, 1.0)
 
 
@@ -357,8 +372,9 @@ def paced(part, turned):
 def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.template(), at: ti.template(),
                  col: ti.template(), oil: ti.template(), rheology: ti.template(), scene: ti.template(), step: ti.template(),
                  solved):
-    """Temperatures of a column by Newton, in the rows that are `solved` (1, else 0). Returns 1.0 if they did not converge under
-    load and how many nodes were held in range."""
+    """Solve the temperatures of a column by Newton, in the rows with `solved` = 1. Returns 1.0 if they did not converge under
+    load, and the number of nodes limited to the allowed range.
+    """
     nz = N.shape[1]
     moved, expected, part, count, clamped, failed, went = 1e300, 1e300, 1.0, 0, 0.0, 0.0, V(0.0)
     while expected > step.tolerance and count < int(step.iterations):
@@ -385,7 +401,7 @@ def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.tem
 
 @ti.func
 def keep_departed(Z: ti.template(), at: ti.template(), nz, oil: ti.template()):
-    """Temperatures of the oil as it came in, where a column has no other; returns of how many nodes."""
+    """Set temperatures to those at the departure points, where a column has no others; returns the number of nodes."""
     for n in range(nz):
         Z[T, at.q * nz + n] = Z[TS, at.q * nz + n]
     keep_parts(Z, at.q, nz, oil)
@@ -395,8 +411,9 @@ def keep_departed(Z: ti.template(), at: ti.template(), nz, oil: ti.template()):
 @ti.kernel
 def energy(S: ti.template(), Z: ti.template(), C: ti.template(), X: ti.template(), G: Table, N: Nodes, oil: ti.template(),
            rheology: ti.template(), conditions: Flat, numbers: Flat, report: Table):
-    """One implicit step of every column of the tiles that do not rest, by Newton, after velocities and departures; report: see
-    :mod:`tehl_taichi.heat.film_tables`."""
+    """One implicit step of every column of the tiles that are not skipped, by Newton, after velocities and departures; report:
+    see :mod:`tehl_taichi.heat.film_tables`.
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):

@@ -1,5 +1,6 @@
-"""Start values of the next temperatures: extrapolated in time in the frame of the contact and in that of the feature, each
-trusted where it was right one step ago (see :mod:`tehl_taichi.march.extrapolation`, which does the same for the pressure)."""
+"""Prediction of the next temperatures: extrapolated in the frames of the contact and of the feature, weighted by their errors
+in the last step (see :mod:`tehl_taichi.march.extrapolation`, which predicts the pressure).
+"""
 
 import numpy as np
 
@@ -19,7 +20,7 @@ STATES = 3  # that must be known before differences in time count: the first of 
 
 @ti.dataclass
 class Trend:
-    """From the last two states to the next one."""
+    """Extrapolation from the last two states to the next one."""
 
     slope: ti.f64  # of the last difference, so much continues
     lowest: ti.f64  # deg C, that nothing is guessed below,
@@ -28,8 +29,9 @@ class Trend:
 
 @ti.func
 def extrapolated(Z: ti.template(), at: ti.template(), nz, n, paths: ti.template(), stays: ti.template(), slope):
-    """The next values at node n, in the frame of the contact and in that of the feature; stays (nz, nx+1): what does not move
-    with it."""
+    """Predicted values at node n in the frames of the contact and of the feature; stays (nz, nx+1): part that does not move
+    with it.
+    """
     q = at.q * nz + n
     still = Z[TN, q] + slope * (Z[TN, q] - Z[TNN, q])
     newest = moved(Z, TN, at.q - at.i, at.i, at.nx, paths, 0, nz, n)
@@ -39,7 +41,7 @@ def extrapolated(Z: ti.template(), at: ti.template(), nz, n, paths: ti.template(
 
 @ti.func
 def around(C: ti.template(), at: ti.template(), kind: ti.template()):
-    """A single, summed over each node and its eight neighbours."""
+    """Sum of a quantity over each node and its eight neighbours."""
     out = V(0.0)
     for t in ti.static(range(-1, 2)):
         q = at.q - at.i + ti.min(ti.max(at.i + t, 0), at.nx)
@@ -51,7 +53,9 @@ def around(C: ti.template(), at: ti.template(), kind: ti.template()):
 
 @ti.kernel
 def judge(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, numbers: Flat, paths: Table, stays: Table):
-    """STILL, MOVING: squares of what both would have missed the present temperatures by, at both walls and in the middle."""
+    """Compute STILL, MOVING: squared errors of both predictions for the present temperatures, at both walls and in the
+    middle.
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
@@ -71,7 +75,9 @@ def judge(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, numbers: Fla
 @ti.kernel
 def foresee(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, oil: ti.template(), numbers: Flat, paths: Table,
             stays: Table):
-    """Temperatures, and what of the viscosity depends on them alone; rows beyond the last one as this."""
+    """Write the predicted temperatures, and the viscosity terms that depend only on them; rows beyond the last one repeat
+    it.
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
@@ -89,9 +95,11 @@ def foresee(Z: ti.template(), C: ti.template(), G: Table, nz: ti.i32, oil: ti.te
 
 
 class TemperatureExtrapolation:
-    """Extrapolation of the temperatures of `heat`, a :class:`tehl_taichi.heat.temperatures.FilmHeat`, from its last two states;
-    at: how far the feature has moved in the last one, in cells; state: what :meth:`state` gave is continued from, if it is in
-    there."""
+    """Extrapolation of the temperatures of `heat`, a :class:`tehl_taichi.heat.temperatures.FilmHeat`, from its last two states.
+
+    at: displacement of the feature in the last one, in cells; state: result of :meth:`state` to continue from, if it contains
+    it.
+    """
 
     def __init__(self, heat, at, state):
         self.heat, self.at, self.edge_before = heat, [at], heat.columns.nodes(TNN)[:, -1]
@@ -106,8 +114,9 @@ class TemperatureExtrapolation:
         self._foresee = bind(foresee, *film, heat.levels.scene.oil, *known)
 
     def put(self, to):
-        """The guess for the state with the feature at `to` into the table, whatever an attempt left there; the first one is
-        the newest state."""
+        """Write the prediction for feature position `to` into the table, over the result of any failed attempt; the first one
+        is the newest state.
+        """
         if len(self.at) == 1:
             self.heat.set_temperature(self.heat.T)
             return
@@ -116,18 +125,18 @@ class TemperatureExtrapolation:
         self._foresee()
 
     def accept(self, at):
-        """What is in the table is the newest state; call it before the table's last states move on."""
+        """Take the state in the table as the newest; call it before the table's last states are shifted."""
         self._look(at)
         self._judge()
         self.at, self.edge_before = [at, *self.at[: STATES - 1]], self.heat.T[:, -1]
 
     def state(self):
-        """Arrays to continue from: where the feature was, squares (2, ny+1, nx+1) of what was missed, the start."""
+        """Arrays to continue from: feature positions, squared errors (2, ny+1, nx+1), the start."""
         start = {} if self.start is None else {"T_start": self.start}
         return {"T_moved": np.array(self.at), "T_missed": self.heat.columns.singles.get(STILL, 2), **start}
 
     def _look(self, to):
-        """How the last states continue to `to`."""
+        """Trend from the last states to feature position `to`."""
         T, before = self.heat.T, self.at[min(1, len(self.at) - 1)]
         slope = (to - self.at[0]) / (self.at[0] - before) if len(self.at) == STATES else 0.0
         self.ahead.set(slope=slope)

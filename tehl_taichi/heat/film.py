@@ -1,11 +1,11 @@
-"""The film with temperatures: columns of nz Chebyshev-Lobatto nodes zeta = z/h from body a (0) to body b (1).
+"""Thermal film: columns of nz Chebyshev-Lobatto nodes zeta = z/h from body a (0) to body b (1).
 
-In the table of :mod:`tehl_taichi.heat.film_tables`. Source: generalised Reynolds equation, Yang & Wen 1990. In SI but for
-viscosities, which are over eta0, and densities, over rho_0.
+In the table of :mod:`tehl_taichi.heat.film_tables`. Source: generalised Reynolds equation, Yang & Wen 1990. In SI, except
+viscosities (over eta0) and densities (over rho_0).
 
-With the Newtonian stress of the Couette part -u_s/(h E0), u_s = u_a - u_b, E0 = int dzeta/eta, zeta_c = int zeta dzeta/eta / E0
-and Phi what the shear law makes of the flow by pressure (:mod:`tehl_taichi.heat.sliding`): u = u_a - u_s int_0 dzeta/eta / E0
-+ Phi h^2 p_x int_0 (zeta - zeta_c)/eta dzeta. Integrals over zeta: N, see :mod:`tehl_taichi.heat.node_table`.
+Newtonian stress of the Couette part -u_s/(h E0), u_s = u_a - u_b, E0 = int dzeta/eta, zeta_c = int zeta dzeta/eta / E0; Phi:
+factor of the shear law on the pressure-driven flow (:mod:`tehl_taichi.heat.sliding`): u = u_a - u_s int_0 dzeta/eta / E0 + Phi
+h^2 p_x int_0 (zeta - zeta_c)/eta dzeta. Integrals over zeta: N, see :mod:`tehl_taichi.heat.node_table`.
 """
 
 from tehl_taichi.engine.elementary import exp, log, maximum
@@ -28,7 +28,7 @@ from tehl_taichi.pressure.tractions import walls
 
 @ti.dataclass
 class FilmColumn:
-    """What the nodes of a column share."""
+    """Quantities of a column that its nodes share."""
 
     p: V  # Pa
     h: V  # m, at least the floor
@@ -39,13 +39,13 @@ class FilmColumn:
 
 @ti.func
 def pressure_and_film(S: ti.template(), G: ti.template(), k, scene: ti.template()):
-    """Pa, and m, at least the floor."""
+    """Pressure (Pa) and film thickness (m, at least the floor)."""
     return S[P, k] * scene.p_H, maximum(S[H, k], G[0, FLOOR]) * scene.h
 
 
 @ti.func
 def column(S: ti.template(), G: ti.template(), at: ti.template(), scene: ti.template()):
-    """The FilmColumn of a place, from pressure and film."""
+    """The FilmColumn at a place, from pressure and film."""
     px, py = limited_gradient(S, G, at)
     p, h = pressure_and_film(S, G, at.k, scene)
     slope = scene.p_H / scene.a
@@ -54,7 +54,7 @@ def column(S: ti.template(), G: ti.template(), at: ti.template(), scene: ti.temp
 
 @ti.func
 def node_laws(Z: ti.template(), q, nz, oil: ti.template(), p, ln_eta0):
-    """1/eta and rho at the nodes of a column, after :func:`keep_parts`."""
+    """Compute 1/eta and rho at the nodes of a column, after :func:`keep_parts`."""
     for n in range(nz):
         at = q * nz + n
         known = [Z[KEPT + m, at] for m in ti.static(range(parts(oil)))]
@@ -64,7 +64,7 @@ def node_laws(Z: ti.template(), q, nz, oil: ti.template(), p, ln_eta0):
 
 @ti.func
 def keep_parts(Z: ti.template(), q, nz, oil: ti.template()):
-    """What of the viscosity depends on the temperature alone, at the nodes of a column: when that has changed."""
+    """Store the viscosity terms that depend only on the temperature, at the nodes of a column, after it has changed."""
     for n in range(nz):
         for m in ti.static(range(parts(oil))):
             Z[KEPT + m, q * nz + n] = part(oil, Z[T, q * nz + n], m)
@@ -83,8 +83,9 @@ def keep(Z: ti.template(), G: Table, nz: ti.i32, oil: ti.template()):
 
 @ti.func
 def felt(Z: ti.template(), N: ti.template(), q, flow: ti.template(), scene: ti.template()):
-    """What the Reynolds equation feels of a column: mean density, density carried by the Couette flow, 1/eta that the
-    Poiseuille flow of Newtonian oil feels."""
+    """Mean values of a column for the Reynolds equation: mean density, density in the Couette flow, 1/eta in the Poiseuille
+    flow of Newtonian oil.
+    """
     nz, mean, carried, turned = N.shape[1], V(0.0), V(0.0), V(0.0)
     for m in range(nz):
         above_m = V(0.0)  # of the density beyond node m, which its shear carries along
@@ -99,8 +100,9 @@ def felt(Z: ti.template(), N: ti.template(), q, flow: ti.template(), scene: ti.t
 
 @ti.kernel
 def laws(S: ti.template(), Z: ti.template(), G: Table, N: Nodes, oil: ti.template(), conditions: Flat, slopes: ti.template()):
-    """RHO, RHOC, LE, IE, ROOT, GAP, SKEW of the finest level from pressure, film and the temperatures. With slopes = 1 their
-    derivatives, which need the values."""
+    """Compute RHO, RHOC, LE, IE, ROOT, GAP, SKEW of the finest level from pressure, film and temperatures; with slopes = 1
+    their derivatives, which need the values.
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):
@@ -124,7 +126,7 @@ def laws(S: ti.template(), Z: ti.template(), G: Table, N: Nodes, oil: ti.templat
 @ti.func
 def store_velocities(Z: ti.template(), N: ti.template(), q, col: ti.template(), flow: ti.template(), law: ti.template(),
                      scene: ti.template()):
-    """u and v at the nodes; needs their 1/eta."""
+    """Store u and v at the nodes; needs their 1/eta."""
     nz, poiseuille = N.shape[1], col.h * col.h / scene.eta0
     along = poiseuille * (law.along + law.slips + law.more_x) * col.px
     across = poiseuille * (law.across + law.more_y) * col.py
@@ -140,7 +142,7 @@ def store_velocities(Z: ti.template(), N: ti.template(), q, col: ti.template(), 
 
 @ti.func
 def store_fluxes(Z: ti.template(), N: ti.template(), q, h):
-    """Mass fluxes below each node; needs rho and the velocities."""
+    """Store the mass fluxes below each node; needs rho and the velocities."""
     nz = N.shape[1]
     for n in range(nz):
         along, across = V(0.0), V(0.0)
@@ -153,7 +155,7 @@ def store_fluxes(Z: ti.template(), N: ti.template(), q, h):
 
 @ti.func
 def store_mass(Z: ti.template(), N: ti.template(), q, h):
-    """Mass below each node; needs rho."""
+    """Store the mass below each node; needs rho."""
     nz = N.shape[1]
     for n in range(nz):
         mass = V(0.0)
@@ -164,7 +166,7 @@ def store_mass(Z: ti.template(), N: ti.template(), q, h):
 
 @ti.func
 def store_shear(C: ti.template(), q, col: ti.template(), flow: ti.template(), law: ti.template(), limit):
-    """Stress of the Couette part, gradient of the pressure, and tau on both walls."""
+    """Store the stress of the Couette part, the pressure gradient, and tau on both walls."""
     tau, x, y = flow.sign * law.tau, 0.5 * col.h * col.px, 0.5 * col.h * col.py
     shift = 1.0 - 2.0 * flow.centre  # of the middle of the film
     a_x, a_y, b_x, b_y = walls(tau + shift * x, x, shift * y, y, limit)
@@ -175,8 +177,9 @@ def store_shear(C: ti.template(), q, col: ti.template(), flow: ti.template(), la
 @ti.kernel
 def velocities(S: ti.template(), Z: ti.template(), C: ti.template(), G: Table, N: Nodes, oil: ti.template(),
                rheology: ti.template(), conditions: Flat, report: Table, flows: ti.i32):
-    """Mass below each node and the shear on both walls, which a state is remembered by, and where it `flows` (1) velocities and
-    mass fluxes, in tiles that do not rest."""
+    """Store the mass below each node and the shear on both walls, which belong to a state; with `flows` = 1 also velocities and
+    mass fluxes, in tiles that are not skipped.
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):

@@ -1,8 +1,8 @@
-"""The tables of a film with temperatures: Z[kind, column * nz + node] at the nodes of zeta, C[column, single] of columns.
+"""Tables of a thermal film: Z[kind, column * nz + node] at the nodes of zeta, C[column, single] for columns.
 
-A column is a block of W rows at one x, as on the finest level of the state table. Kind after kind: a kernel reads what it needs
-of all columns in one piece. Column after column, 146 numbers of one beside those of the next, it waits for memory: on one core
-and 256x64x9, ms a call, velocities 3.6 (now 2.7), departures 4.3 (2.4), energy 7.2 (5.0), laws 2.2 (1.9).
+A column is a block of W rows at one x, as on the finest level of the state table. Data are stored kind after kind, so that a
+kernel reads contiguous memory. Stored column after column (146 numbers each) kernels wait for memory: on one core and 256x64x9,
+ms per call, velocities 3.6 (now 2.7), departures 4.3 (2.4), energy 7.2 (5.0), laws 2.2 (1.9).
 """
 
 import numpy as np
@@ -32,14 +32,14 @@ TOLD = 4
 
 @ti.func
 def nodes_around(Z: ti.template(), at: ti.template(), kind: ti.template(), nz, n):
-    """Values of a kind at node n of the place `at` at j - 1 and j + 1."""
+    """Values of a kind at node n of the place `at`, at j - 1 and j + 1."""
     before, behind = columns_around(at, at.q)
     return rows_around(at, Z[kind, at.q * nz + n], Z[kind, before * nz + n], Z[kind, behind * nz + n])
 
 
 @ti.func
 def address(by_kind: ti.template(), place, count, q, n):
-    """Row and column of the n-th of `count` numbers of column q: of the kind `place`, or of the slots from `place` on."""
+    """(row, column) of the n-th of `count` numbers of column q: of the kind `place`, or of the slots from `place` on."""
     row, column = q, place + n
     if ti.static(by_kind):
         row, column = place, q * count + n
@@ -48,7 +48,7 @@ def address(by_kind: ti.template(), place, count, q, n):
 
 @ti.kernel
 def get(F: ti.template(), G: Table, by_kind: ti.template(), place: ti.i32, out: Fields):
-    """out (count, ny+1, nx+1) = the numbers at `place`."""
+    """Copy the numbers at `place` to `out` (count, ny+1, nx+1)."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
@@ -63,7 +63,7 @@ def get(F: ti.template(), G: Table, by_kind: ti.template(), place: ti.i32, out: 
 
 @ti.kernel
 def put(F: ti.template(), G: Table, by_kind: ti.template(), place: ti.i32, values: Fields):
-    """The numbers at `place` = values (count, ny+1, nx+1); ghosts repeat the last row."""
+    """Copy `values` (count, ny+1, nx+1) to the numbers at `place`; ghosts repeat the last row."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
@@ -77,7 +77,7 @@ def put(F: ti.template(), G: Table, by_kind: ti.template(), place: ti.i32, value
 
 
 class SlotTable:
-    """A table F[column, slot] of so many slots on the finest grid of `levels`; its arrays are (slots, ny+1, nx+1)."""
+    """Table F[column, slot] on the finest grid of `levels`; its arrays are (slots, ny+1, nx+1)."""
 
     by_kind = False  # how it lies in its field, see :func:`address`
 
@@ -86,7 +86,7 @@ class SlotTable:
         self.field = field_pool.lease(self, 0, W, levels.most_columns, slots)
 
     def get(self, first, count=1):
-        """`count` slots from `first` on as a new array."""
+        """New array of `count` slots from `first` on."""
         return self._carry(get, first, count).copy()
 
     def put(self, first, values):
@@ -100,8 +100,9 @@ class SlotTable:
 
 
 class FilmTables(SlotTable):
-    """The tables Z (field) and C (singles) of a film with nz nodes across: quantities at the nodes (nz, ny+1, nx+1), others
-    (ny+1, nx+1), by name."""
+    """Tables Z (field) and C (singles) of a film with nz nodes across: quantities at the nodes (nz, ny+1, nx+1), others (ny+1,
+    nx+1), by name.
+    """
 
     by_kind = True
 

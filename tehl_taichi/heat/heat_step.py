@@ -1,11 +1,11 @@
-"""Numbers of a time step that the kernels of the energy equation take (see :mod:`tehl_taichi.engine.records`)."""
+"""Numbers of a time step for the kernels of the energy equation (see :mod:`tehl_taichi.engine.records`)."""
 
 from tehl_taichi.engine.language import ti
 
 
 @ti.dataclass
 class HeatStep:
-    """Heat in a time step."""
+    """Numbers of a time step for the energy equation."""
 
     rate: ti.f64  # 1/s, weight of the new state in d/dt
     inv_x: ti.f64  # 1/m, 1/dx
@@ -26,7 +26,7 @@ class HeatStep:
 
 @ti.dataclass
 class Drift:
-    """Motion of a body in a time step: where its material strips lie."""
+    """Motion of a body in a time step: position of its material strips."""
 
     shift: ti.f64  # whole cells that the strips overtake the grid by
     rest: ti.f64  # cells that strip i lies ahead of column i afterwards

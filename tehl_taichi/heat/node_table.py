@@ -1,4 +1,4 @@
-"""Numbers of the nodes across the film for kernels: the table of :class:`tehl_taichi.heat.chebyshev.ChebyshevNodes`, N."""
+"""Node numbers across the film for kernels: table N of :class:`tehl_taichi.heat.chebyshev.ChebyshevNodes`."""
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.heat.chebyshev import BEYOND, INTEGRAL, MATRICES, SECOND, SLOPE, WEIGHT, ZETA
@@ -8,7 +8,7 @@ Nodes = ti.types.ndarray(dtype=ti.f64, ndim=2)
 
 @ti.func
 def zeta(N: ti.template(), n):
-    """Place of node n."""
+    """Position of node n."""
     return N[ZETA, n]
 
 

@@ -1,8 +1,8 @@
-"""Tiles of a film that rest in a round: where the round before hardly changed the temperatures, and pressure and film are still
-what they were then, another solution would not move them either.
+"""Tiles of a film that are skipped in a round: the last round hardly changed their temperatures, pressure and film have hardly
+changed since, so a solution would not change them either.
 
-Gear at SRR -0.12, 256x64x9: of the second rounds' tiles 87 % rest; solved anyway they would change by at most 0.014 K
-(thermal.tolerance: 0.05 K), without the limits of pressure and film by 0.019 K. On 128x32x9 about a half rest.
+Gear at SRR -0.12, 256x64x9: in second rounds 87 % of the tiles are skipped; a solution would change them by at most 0.014 K
+(thermal.tolerance: 0.05 K), without the limits on pressure and film by 0.019 K. On 128x32x9 about half are skipped.
 """
 
 from tehl_taichi.engine.elementary import maximum
@@ -20,7 +20,7 @@ STILL_FILM = 1e-3  # and part of its film
 
 @ti.func
 def moved(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template(), scene: ti.template()):
-    """Largest change of pressure and film of a column since its temperatures were solved for, over what a tile at rest may."""
+    """Largest change of pressure and film in a column since its temperatures were solved, over the limit for skipping."""
     p, h = pressure_and_film(S, G, at.k, scene)
     by_pressure = ti.abs(p - C[at.q, PL]) / (STILL_PRESSURE * scene.p_H)
     return largest_row(maximum(by_pressure, ti.abs(h - C[at.q, HL]) / (STILL_FILM * h)), at)
@@ -28,7 +28,7 @@ def moved(S: ti.template(), C: ti.template(), G: ti.template(), at: ti.template(
 
 @ti.kernel
 def choose_tiles(S: ti.template(), C: ti.template(), G: Table, conditions: Flat, most: ti.f64, report: Table):
-    """RESTS of every tile: 1 where its last change is below `most` K."""
+    """Set RESTS of every tile: 1 if its last change is below `most` K."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):

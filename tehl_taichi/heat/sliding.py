@@ -1,4 +1,4 @@
-"""The sliding (Couette) part of a column of the film, and what the shear law makes of it and of the flow by pressure."""
+"""Sliding (Couette) part of a column of the film, and the effect of the shear law on it and on the pressure-driven flow."""
 
 from tehl_taichi.engine.elementary import maximum, minimum
 from tehl_taichi.engine.language import ti
@@ -28,7 +28,7 @@ class Couette:
 
 @ti.dataclass
 class Sheared:
-    """A column as its shear law has it."""
+    """A column with its shear law."""
 
     tau: V  # Pa, stress at zeta_c
     along: V  # flow by pressure along the sliding over that of Newtonian oil, without what slips,
@@ -53,13 +53,13 @@ def couette(Z: ti.template(), N: ti.template(), q, h, scene: ti.template()):
 
 @ti.func
 def wall_stress(col: ti.template(), slope, scene: ti.template()):
-    """Stress on the walls by a gradient (Pa/m) of the pressure, as the shear law sees it, Pa."""
+    """Wall stress (Pa) by a pressure gradient (Pa/m), for the shear law."""
     return 0.5 * col.h * ti.abs(slope) * scene.strain
 
 
 @ti.func
 def eased(more, col: ti.template(), slope, fluidity, power: ti.template(), scene: ti.template()):
-    """What is left at a node of the steep rest of a flow, as the faces ease it."""
+    """Reduced steep part of a flow at a node, consistent with the faces."""
     share = V(1.0)
     if ti.static(power > 1.0):
         carried = more * fluidity * col.h * col.h * ti.abs(slope) / (12.0 * scene.eta0)
@@ -69,14 +69,16 @@ def eased(more, col: ti.template(), slope, fluidity, power: ti.template(), scene
 
 @ti.func
 def flow_across(rheology: ti.template(), y, col: ti.template(), newtonian):
-    """Smooth and steep part of the flow across the sliding by a stress y on the walls."""
+    """Smooth and steep part of the flow across the sliding, for a wall stress y."""
     smooth, steep = either(rheology, False, y * col.skew, y, newtonian, col.p)
     return smooth[0], steep[0]
 
 
 @ti.func
 def flow_along(rheology: ti.template(), x, col: ti.template(), newtonian, scene: ti.template()):
-    """Flow along the sliding; as across it where walls carry all (:func:`tehl_taichi.pressure.fluxes.yielding`)."""
+    """Smooth and steep part of the flow along the sliding; equal to that across it while walls carry any stress
+    (:func:`tehl_taichi.pressure.fluxes.yielding`).
+    """
     smooth, steep = V(0.0), V(0.0)
     if scene.strain > 0.0:
         exact = either(rheology, True, x * col.skew, x, newtonian, col.p)
@@ -88,14 +90,14 @@ def flow_along(rheology: ti.template(), x, col: ti.template(), newtonian, scene:
 
 @ti.func
 def crest(rheology: ti.template(), p):
-    """Stress on the walls by the gradient of the pressure, Pa, below which the oil slips along both."""
+    """Wall stress by the pressure gradient (Pa) below which the oil slips along both walls."""
     limit = wall_limit(rheology, p)
     return ti.select(limit < LARGEST, CREST * limit, V(0.0))
 
 
 @ti.func
 def slipping(rheology: ti.template(), x, skew, newtonian, p):
-    """Part of the sliding that the oil slips along walls on which the gradient of the pressure puts x (Pa)."""
+    """Part of the sliding that is wall slip, for a wall stress x (Pa) by the pressure gradient."""
     return wall_slip(rheology, maximum(x, crest(rheology, p)) * skew, newtonian, p)
 
 

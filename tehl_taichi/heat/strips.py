@@ -1,7 +1,8 @@
-"""Material strips of both bodies: heat that went in earlier, remembered in the bodies' own frames.
+"""Material strips of both bodies: heat of earlier steps, stored in the bodies' own frames.
 
-F[column, slot]: the modes of body a and of body b (`count` each) and the flux of the last step into both; one scratch slot. A
-column belongs to a material strip; strips overtake the grid by whole cells and a rest (Drift), and come in cold from the left.
+F[column, slot]: the modes of body a and of body b (`count` each), the flux of the last step into both, one scratch slot. A
+column belongs to a material strip; strips move over the grid by whole cells and a fraction (Drift), and enter cold from the
+left.
 """
 
 from tehl_taichi.engine.language import ti
@@ -17,24 +18,24 @@ WEIGHT, DECAY, GAIN, GAIN_LAST = range(4)
 
 @ti.pyfunc
 def kept(count):
-    """Slots that continue to the next step."""
+    """Number of slots kept for the next step."""
     return 2 * count + 2
 
 
 @ti.pyfunc
 def memory(count, body):
-    """Slots of the first mode of a body and of the last flux into it."""
+    """(slot of the first mode of a body, slot of the last flux into it)."""
     return body * count, 2 * count + body
 
 
 def width(count):
-    """Slots in all."""
+    """Total number of slots."""
     return kept(count) + 1
 
 
 @ti.func
 def interpolate(F: ti.template(), first, i, nx, slot, rest):
-    """Value at i + rest, cubic, the ends continued."""
+    """Value at i + rest by cubic interpolation, constant beyond the ends."""
     w, out = cubic(rest), V(0.0)
     for t in ti.static(range(4)):
         out += w[t] * F[first + ti.min(ti.max(i + t - 1, 0), nx), slot]
@@ -44,7 +45,7 @@ def interpolate(F: ti.template(), first, i, nx, slot, rest):
 @ti.kernel
 def surface(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: Flat, count: ti.i32, body: ti.i32,
             ambient: ti.f64, slot: ti.i32):
-    """C[slot] = A of T_s = A + B q at the nodes of the contact; material strip i lies at x_i + rest dx."""
+    """Set C[slot] = A of T_s = A + B q at the nodes of the contact; material strip i is at x_i + rest dx."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):
@@ -67,8 +68,9 @@ def surface(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: F
 @ti.kernel
 def remember(F: ti.template(), C: ti.template(), G: Table, modes: Modes, drift: Flat, count: ti.i32, body: ti.i32,
              slot: ti.i32):
-    """The new memory of a body from the flux C[slot] of this step and that of the last; from the side that strips leave at, so
-    that none is overwritten before it is read."""
+    """Update the memory of a body from the flux C[slot] of this step and that of the last one; starts at the side where strips
+    leave, so that each is read before it is overwritten.
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for s in range(ny // W + 1):

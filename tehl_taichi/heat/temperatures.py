@@ -1,7 +1,7 @@
-"""Temperatures of the film and of both bodies: the energy equation, a step at a time.
+"""Temperatures of the film and of both bodies: the energy equation, one step at a time.
 
-A step: velocities from the generalised Reynolds solution, where the oil of each node came from, then one implicit system
-per column that holds conduction, both heat sources and both walls (T_s = A + B q of the bodies).
+A step: velocities from the generalised Reynolds solution, departure points of the oil, then one implicit system per column with
+conduction, both heat sources and both walls (T_s = A + B q of the bodies).
 """
 
 import math
@@ -30,8 +30,9 @@ COLUMN_ITERATIONS = 40  # Newton steps of a column; 2 are usual, 6 to 8 the most
 
 @dataclass
 class HeatReport:
-    """change: largest difference from the last iterate (K), or the one that is expected of another round; failed: columns that
-    did not converge; clamped: nodes held inside the allowed range."""
+    """change: largest difference from the last iterate (K), or the expected one of another round; failed: columns that did not
+    converge; clamped: nodes limited to the allowed range.
+    """
 
     change: float
     failed: int
@@ -39,11 +40,12 @@ class HeatReport:
 
 
 class FilmHeat:
-    """Temperatures on the finest grid of `levels`: a film for :class:`tehl_taichi.pressure.newton.PressureSolver`, the laws of
-    which follow them. dt_s: the time step (s) that the memory of the bodies is made for; shorter ones may be taken too.
-    given: whether columns whose pressure is given have given temperatures, too.
+    """Temperatures on the finest grid of `levels`: a film for :class:`tehl_taichi.pressure.newton.PressureSolver`, whose laws
+    depend on them.
 
-    values(), slopes(): density and viscosity of the film in the table, and their derivatives, into the table; rows: which.
+    dt_s: time step (s) for which the memory of the bodies is made; shorter steps are possible. given: columns with given
+    pressure also have given temperatures. values(), slopes(): write density and viscosity of the film in the table, and their
+    derivatives, to `rows` of the table.
     """
 
     rows = fields.THERMAL
@@ -80,8 +82,11 @@ class FilmHeat:
         self._accept = bind(departure_points.accept, *state, v.G, self.nz, v.scales.p_H)
 
     def start(self, T=None):
-        """Everything at the inlet temperature, or the film at T and cold bodies; the pressure and film in the table count as
-        those of the last step. Until :meth:`ConductingBodies.warm_resting`, surfaces at rest conduct as after a long time."""
+        """Start at the inlet temperature everywhere, or with the film at T and cold bodies.
+
+        Pressure and film in the table become those of the last step. Until :meth:`ConductingBodies.warm_resting`, surfaces at
+        rest conduct as after a long time.
+        """
         v, self.bodies.steady, self.dt_before = self.levels, True, 0.0
         inlet = v.scene.operation.temperature
         self.bodies.cool()
@@ -90,15 +95,15 @@ class FilmHeat:
         self._keep()
 
     def continue_from(self, T, memory, offset):
-        """Continue from a film at T (nz, ny+1, nx+1), of the pressure and film in the table, without a step before, and from
-        bodies of a memory and offset (:meth:`ConductingBodies.restore`)."""
+        """Continue from a film at T (nz, ny+1, nx+1), with pressure and film in the table and no earlier step, and from the
+        memory and offset of the bodies (:meth:`ConductingBodies.restore`).
+        """
         self.start(T)
         self.bodies.steady = False
         self.bodies.restore(memory, offset)
 
     def begin(self, dt, moved=0):
-        """Prepare a step of dt s in which the grid moves by so many cells: what the bodies remember, A and B of both
-        surfaces."""
+        """Prepare a step of dt s in which the grid moves by `moved` cells: memory of the bodies, A and B of both surfaces."""
         v, a, self.dt_now, self.rounds = self.levels, self.levels.scales.a, dt, Relaxation()
         self.moved, (B_a, B_b) = moved, self.bodies.begin(dt, moved)
         rate, (near, *far) = bdf(*([dt, self.dt_before] if self.dt_before else [dt]))
@@ -108,8 +113,11 @@ class FilmHeat:
                       moved_2=moved + self.moved_before)
 
     def solve(self, again=False):
-        """Temperatures of this step for the pressure and film in the table; again: of a step with temperatures already, which
-        stay where they would hardly move (:mod:`tehl_taichi.heat.skip_tiles`). Returns a HeatReport."""
+        """Solve the temperatures of this step for the pressure and film in the table. Returns a HeatReport.
+
+        again: the step already has temperatures; tiles that would hardly change are skipped
+        (:mod:`tehl_taichi.heat.skip_tiles`).
+        """
         if again:
             self._choose_rest()
         self._velocities()
@@ -123,37 +131,39 @@ class FilmHeat:
 
     @property
     def held(self):
-        """Nodes under load of the newest state at a limit of the allowed range: no temperatures, but where the solver
-        stopped."""
+        """Number of loaded nodes at a limit of the allowed temperature range (where the solver stopped) in the newest state."""
         coldest, loaded = self.levels.scene.operation.temperature - energy.WARM, self.levels.get(fields.P) > energy.LIGHT
         return int((((self.T >= energy.HOT) | (self.T <= coldest)) & loaded).sum())
 
     @property
     def sound(self):
-        """Whether every column under load of the last step converged, inside the allowed range."""
+        """Whether every loaded column of the last step converged inside the allowed range."""
         return not (self.report.failed or self.held)
 
     def hold(self):
-        """Let columns without a solution keep the temperatures of the oil that came in until the step is accepted: a few
-        are left beside solid contact or a front that the grid does not resolve; those that carry nothing may change with
-        the rounds. Returns whether that is worth a try."""
+        """Let columns without a solution keep the temperatures of their departure points until the step is accepted. Returns
+        whether that is worth a try.
+
+        A few such columns are beside solid contact or an unresolved front; columns that carry no load may change with the
+        rounds.
+        """
         worth, self.holding = not self.holding and self.report.failed <= FEW, True
         return worth
 
     def relax(self):
-        """Take less of what the last round changed, where rounds overshoot each other; nothing rests in the next."""
+        """Relax the change of the last round, if rounds alternate about the solution; no tile is skipped in the next one."""
         self.tile_report[:, film_tables.CHANGE] = np.inf
         self.set_temperature(self.rounds.relaxed(self.columns.nodes(film_tables.LAST), self.temperature()))
 
     def accept(self):
-        """Make this step the last one."""
+        """Store this step as the last one."""
         self.bodies.accept()
         self.holding = False
         self.dt_before, self.moved_before = self.dt_now, self.moved
         self._keep()
 
     def _keep(self):
-        """The present state of the film becomes that of the last step."""
+        """Store the present state of the film as that of the last step."""
         self._remembered()
         self._accept()
         self.T = self.temperature()
@@ -163,7 +173,7 @@ class FilmHeat:
         return {"heat_T": self.T, "heat_memory": self.bodies.memory(), "heat_offset": self.bodies.offset}
 
     def state(self):
-        """All that is needed to continue, as arrays."""
+        """Arrays needed to continue."""
         return {**self.carried(), "heat_T_before": self.columns.nodes(film_tables.TNN),
                 "heat_below": self.columns.nodes(film_tables.MSN), "heat_below_before": self.columns.nodes(film_tables.MSNN),
                 "heat_p_before": self.columns.single(film_tables.PNN)[None], "heat_dt_before": self.dt_before}
@@ -181,20 +191,20 @@ class FilmHeat:
         self.T, self.dt_before = np.array(state["heat_T"]), float(state["heat_dt_before"])
 
     def temperature(self):
-        """(nz, ny+1, nx+1) deg C, from body a to body b."""
+        """Temperatures (nz, ny+1, nx+1) in deg C, from body a to body b."""
         return self.columns.nodes(film_tables.T)
 
     def set_temperature(self, values):
-        """Start value of the next solve, (nz, ny+1, nx+1)."""
+        """Set the initial temperatures (nz, ny+1, nx+1) of the next solve."""
         self.columns.put_nodes(film_tables.T, values)
         self._keep_parts()
 
     def tractions(self):
-        """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y, of the state that was accepted."""
+        """Shear (4, ny+1, nx+1) in Pa on body a along x, y and on body b along x, y, of the accepted state."""
         v, singles = self.levels, self.columns.singles.field
         return v.fill(wall_shear, 4, singles, v.scene.rheology, v.conditions.values)
 
 
 def _tiles(nx, ny):
-    """Tiles of a grid, as kernels count them (:func:`tehl_taichi.engine.simd.tiles`)."""
+    """Number of tiles of a grid, as in kernels (:func:`tehl_taichi.engine.simd.tiles`)."""
     return (ny // simd.W + 1) * (nx // simd.TILE + 1)

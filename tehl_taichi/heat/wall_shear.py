@@ -1,4 +1,4 @@
-"""Shear tractions on both surfaces of a film with temperatures: the stress at its walls, where it carries."""
+"""Shear tractions on both surfaces of a thermal film: the wall stresses where it carries load."""
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.records import read
@@ -11,7 +11,9 @@ from tehl_taichi.pressure.tractions import Stack, on_bodies, store
 
 @ti.kernel
 def wall_shear(S: ti.template(), G: Table, C: ti.template(), rheology: ti.template(), conditions: Flat, out: Stack):
-    """As :func:`tehl_taichi.pressure.tractions.tractions`, which it is where the film has ruptured or the surfaces touch."""
+    """Compute tractions as :func:`tehl_taichi.pressure.tractions.tractions`, with the same values in ruptured and touching
+    nodes.
+    """
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1)
     for c in range(tiles(nx, ny)):

@@ -1,4 +1,4 @@
-"""All laws: those that a scene chooses between, by the key that chooses, and those that stand alone."""
+"""All laws: those with a key in the scene that chooses one, by that key, and those without a choice."""
 
 from tehl_taichi.laws import conduction, density, rheology, viscosity
 from tehl_taichi.laws.solid_friction import BOUNDARY

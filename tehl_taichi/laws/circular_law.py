@@ -1,9 +1,9 @@
-"""Flow of a film of one viscosity whose oil obeys the circular law, shear rate = (tau/eta) (1 - (tau/tau_L)^2)^(-1/2).
+"""Flow of a film with one viscosity by the circular law, shear rate = (tau/eta) (1 - (tau/tau_L)^2)^(-1/2).
 
-s: stress h |grad p|/2 that a gradient of the pressure along the sliding puts on the walls, r: Newtonian stress eta |u_s|/h of
-the sliding, both over tau_L. With tau = tau_L sin(angle) all integrals across the film are closed. Up to s (1 + r^2) = 1 the
-oil sticks to both walls; beyond, it slips along the one where |tau| = tau_L, and the film takes of the sliding what it would at
-that bound. So everything is a function of K^2 = min(1 + r^2, 1/s), and has one derivative at the bound.
+s: wall stress h |grad p|/2 of a pressure gradient along the sliding; r: Newtonian stress eta |u_s|/h of the sliding; both over
+tau_L. With tau = tau_L sin(angle) all integrals across the film are closed. Up to s (1 + r^2) = 1 the oil sticks to both walls.
+Beyond, it slips along the wall where |tau| = tau_L, and the film has only the sliding at that bound. So all results are
+functions of K^2 = min(1 + r^2, 1/s), with a one-sided derivative at the bound.
 """
 
 from tehl_taichi.engine.pointwise import asin, maximum, minimum, pointwise, sqrt, where
@@ -18,7 +18,7 @@ SLIDING, TINY, LEAST_S = 1e-30, 1e-12, 1e-12
 
 @pointwise
 def wedge(x):
-    """3/2 (d - sin d cos d)/sin^3 d, sin d = x: what a film between walls that stick carries under a gradient alone."""
+    """Function 3/2 (d - sin d cos d)/sin^3 d, sin d = x: flow between sticking walls under a gradient alone."""
     y, x2 = maximum(x, SERIES), x * x
     series = 1.0 + x2 * (0.3 + x2 * (9 / 56 + x2 * (5 / 48 + x2 * (105 / 1408))))
     return where(x < SERIES, series, 1.5 * (asin(y) - y * sqrt(maximum(1.0 - y * y, 0.0))) / (y * y * y))
@@ -26,7 +26,7 @@ def wedge(x):
 
 @pointwise
 def softened(s, r):
-    """s as the flow takes it, over it, and the derivatives of its logarithm by ln s and ln r."""
+    """s at the slip bound of the flow, its ratio to s, and the derivatives of its logarithm by ln s and ln r."""
     fall = 1.0 / maximum(r * r, MOST_R * MOST_R)
     least = 1.0 / (MOST_R * MOST_R) - fall + LEAST_S
     square = s * s + least * least
@@ -35,7 +35,7 @@ def softened(s, r):
 
 @pointwise
 def circular_flow(s, r):
-    """Flow along the sliding over that of Newtonian oil, and its derivatives by ln s and ln r."""
+    """Flow along the sliding relative to Newtonian oil, and its derivatives by ln s and ln r."""
     soft, soft_s, soft_r = softened(s, r)
     t = minimum(soft, 1.0)
     K2 = minimum(1.0 + r * r, 1.0 / t)
@@ -51,7 +51,7 @@ def circular_flow(s, r):
 
 @pointwise
 def circular_stress(s, r):
-    """Stress in the middle of the film over tau_L; at the walls it is larger or smaller by s."""
+    """Stress in the middle of the film over tau_L; at the walls it differs by s."""
     t = minimum(maximum(s, LEAST_S), 1.0)
     K2 = minimum(1.0 + r * r, 1.0 / t)
     return sqrt(maximum((K2 - 1.0) * (1.0 / K2 - t * t), 0.0))
@@ -59,6 +59,6 @@ def circular_stress(s, r):
 
 @pointwise
 def circular_slip(s, r):
-    """Part of the sliding that is a slip of the oil along a wall."""
+    """Part of the sliding that is slip of the oil along a wall."""
     t = minimum(maximum(s, LEAST_S), 1.0)
     return maximum(1.0 - sqrt(1.0 / t - 1.0) / maximum(r, SLIDING), 0.0)

@@ -1,4 +1,4 @@
-"""Conductivity and heat capacity of the film, p in Pa, Gamma in deg C; beyond what was measured they keep their last values."""
+"""Conductivity and heat capacity of the film, p in Pa, Gamma in deg C; constant beyond the measured range."""
 
 from itertools import product
 
@@ -13,14 +13,14 @@ P_MEASURED, GAMMA_MEASURED = 1.1e9, 107.0  # Pa; deg C, of the heat capacity
 
 @pointwise
 def conductivity(oil, p):
-    """k0 (1 + k1 p/(1 + k2 p)), W/mK."""
+    """Conductivity k0 (1 + k1 p/(1 + k2 p)), W/mK."""
     q = minimum(p, P_MEASURED)
     return oil.k0 * (1 + oil.k1 * q / (1 + oil.k2 * q))
 
 
 @pointwise
 def rise(oil, q, T):
-    """B = 1 + b0 (1 + b1 p + b2 p^2) (Gamma - 22)."""
+    """Factor B = 1 + b0 (1 + b1 p + b2 p^2) (Gamma - 22)."""
     return 1 + oil.b0 * (1 + oil.b1 * q + oil.b2 * q * q) * (T - 22)
 
 
@@ -32,7 +32,7 @@ def heat_capacity(oil, p, Gamma):
 
 
 def refused(oil, Gamma, p):
-    """Its factor of temperature must leave something, wherever a film may be."""
+    """Reason if the temperature factor falls too low somewhere in a possible film; "" otherwise."""
     for q, T in product((P_MEASURED * n / 10 for n in range(11)), (min(Gamma, GAMMA_MEASURED), GAMMA_MEASURED)):
         factor = rise(oil, q, T)
         if factor < SPARE:

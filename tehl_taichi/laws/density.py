@@ -1,5 +1,4 @@
-"""Density of an oil over rho_0 by the law that it chose, p in Pa, Gamma in deg C; `oil.expansion` says where its thermal factor
-acts."""
+"""Density of an oil over rho_0 by its law, p in Pa, Gamma in deg C; `oil.expansion` says where its thermal factor applies."""
 
 from tehl_taichi.engine.pointwise import unrolled
 from tehl_taichi.laws import densities
@@ -18,17 +17,17 @@ def _density(oil, p, Gamma, expands):
 
 @unrolled
 def rho_film(oil, p, Gamma):
-    """Density of a film with temperatures; the thermal factor acts unless `oil.expansion` is "never"."""
+    """Density of a thermal film; the thermal factor applies unless `oil.expansion` is "never"."""
     return _density(oil, p, Gamma, oil.expansion != "never")
 
 
 @unrolled
 def rho_ratio(oil, p, Gamma):
-    """Density of a film with one temperature; the thermal factor acts when `oil.expansion` is "always" (see Scene.film_oil)."""
+    """Density of an isothermal film; the thermal factor applies if `oil.expansion` is "always" (see Scene.film_oil)."""
     return _density(oil, p, Gamma, oil.expansion == "always")
 
 
 @unrolled
 def expansivity(oil, p, Gamma):
-    """-(1/rho) d rho/d Gamma of a film with temperatures, 1/K."""
+    """Expansivity -(1/rho) d rho/d Gamma of a thermal film, 1/K."""
     return LAWS[oil.density].expansivity(oil, p, Gamma) if oil.expansion != "never" else 0.0 * p

@@ -1,4 +1,4 @@
-"""Entries of the laws of the lubricant: a function, the numbers that it takes, and their range."""
+"""Entry types of the lubricant's laws: a function, its numbers, and their range."""
 
 import dataclasses
 import math
@@ -17,10 +17,10 @@ def _nothing(oil, Gamma, p):
 
 @dataclass(frozen=True, kw_only=True)
 class Law(Entry):
-    """numbers: {key: declaration} of the values that the law takes from a scene (see :mod:`tehl_taichi.values.quantity`);
-    most_p (Pa), most_Gamma (deg C): up to where it was measured or is known to hold.
+    """A law. numbers: {key: declaration} of its values in a scene (see :mod:`tehl_taichi.values.quantity`); most_p (Pa),
+    most_Gamma (deg C): limits of the measured or known range.
 
-    refused, doubted(oil, Gamma, p): the reason (or "") why the law has no value, or is doubtful, in a contact of inlet
+    refused, doubted(oil, Gamma, p): reason (or "") why the law has no value, or is doubtful, in a contact with inlet
     temperature Gamma and Hertz pressure p.
     """
 
@@ -31,25 +31,25 @@ class Law(Entry):
     doubted: Callable = _nothing
 
     def having(self, **changes):
-        """Numbers of the law for its functions: the defaults with these changes."""
+        """Numbers of the law for its functions: defaults with these changes."""
         return SimpleNamespace(**{**{key: declared.default for key, declared in self.numbers.items()}, **changes})
 
 
 @dataclass(frozen=True, kw_only=True)
 class ShearLaw(Law):
-    """stress(rheology, newtonian, p): the stress (Pa) that a film carries for the Newtonian stress eta * (shear rate); odd in
-    it, and equal to it where it is small. thins: whether it ever differs from the Newtonian stress.
+    """A shear law. stress(rheology, newtonian, p): stress (Pa) of a film for the Newtonian stress eta * (shear rate); odd in
+    it, and equal to it for small stresses. thins: whether it ever differs from it.
 
-    Flow of a film of one viscosity under a pressure gradient along the sliding; wall = h |grad p|/2 >= 0 is the stress of the
-    gradient on both walls, newtonian >= 0 the Newtonian stress of the sliding:
+    Flow of a film with one viscosity under a pressure gradient along the sliding; wall = h |grad p|/2 >= 0 is the wall stress
+    by the gradient, newtonian >= 0 the Newtonian stress of the sliding:
 
-    flow(rheology, wall, newtonian, p): flow over that of Newtonian oil, and its derivatives by ln wall, ln newtonian and p.
-    beyond: stress and derivatives of the part on top, which is too steep in `wall` for Newton's method; power: of the wall that
-    what is carried then grows with. mean_stress: in the middle of the film. slip: part of the sliding that the oil slips along
-    a wall. limit(rheology, p): largest stress of a wall.
+    flow(rheology, wall, newtonian, p): flow relative to Newtonian oil, and its derivatives by ln wall, ln newtonian and p.
+    beyond: an additional part and its derivatives, too steep in `wall` for Newton's method; power: exponent of `wall` in it.
+    mean_stress: in the middle of the film. slip: part of the sliding that is slip along a wall. limit(rheology, p): largest
+    wall stress.
 
-    None: derived from the stress alone, by the circular law with an equal tangent (:mod:`tehl_taichi.laws.tangent_circle`),
-    or without effect.
+    None: derived from the stress alone, by the circular law with an equal tangent (:mod:`tehl_taichi.laws.tangent_circle`), or
+    without effect.
     """
 
     stress: Callable
@@ -64,13 +64,13 @@ class ShearLaw(Law):
 
 @dataclass(frozen=True, kw_only=True)
 class ViscosityLaw(Law):
-    """ln_eta(oil, p, Gamma): ln of the viscosity (Pa s) at p (Pa) and Gamma (deg C).
+    """A viscosity law. ln_eta(oil, p, Gamma): ln of the viscosity (Pa s) at p (Pa) and Gamma (deg C).
 
-    Where it takes long to find what of it depends on the temperature alone: parts, functions (oil, Gamma) of these, and
-    of_parts(oil, p, *values) with the law from them; a film keeps them while its pressure changes.
+    Optional, if terms of the temperature alone are expensive: parts, functions (oil, Gamma) of these terms, and of_parts(oil,
+    p, *values), the law from their values; a film keeps the values while its pressure changes.
 
-    usual: numbers whose default is good for most oils; a new oil must bring the others. thinned_by: numbers without which (all
-    0) the temperature does nothing, () where it never does, None where it always does.
+    usual: numbers whose default suits most oils; a new oil must give the others. thinned_by: numbers without which (all 0) the
+    temperature has no effect; () if it never has, None if it always has.
     """
 
     ln_eta: Callable
@@ -81,13 +81,14 @@ class ViscosityLaw(Law):
 
     @property
     def needed(self):
-        """Names of the numbers that a new oil must bring."""
+        """Names of the numbers that a new oil must give."""
         return tuple(key for key in self.numbers if key not in self.usual)
 
 
 @dataclass(frozen=True, kw_only=True)
 class DensityLaw(Law):
-    """Density over rho_0, that at p = 0 and 40 deg C: compression(oil, p) at 40 deg C, times expansion(oil, p, Gamma).
+    """A density law. Density over rho_0 (at p = 0 and 40 deg C): compression(oil, p) at 40 deg C times expansion(oil, p,
+    Gamma).
 
     expansivity(oil, p, Gamma): -(1/rho) d rho/d Gamma, 1/K.
     """
@@ -98,7 +99,7 @@ class DensityLaw(Law):
 
 
 def beyond(laws, p, Gamma):
-    """{limit as text: its value} of the measured ranges that a film of p (Pa) and Gamma (deg C) exceeds."""
+    """{limit as text: its value} of the measured ranges that a film at p (Pa) and Gamma (deg C) exceeds."""
     found = {}
     for unit, reached, limit in (("Pa", p, "most_p"), ("degC", Gamma, "most_Gamma")):
         passed = {law.name: getattr(law, limit) for law in laws.values() if reached > getattr(law, limit)}
@@ -108,9 +109,9 @@ def beyond(laws, p, Gamma):
 
 
 def declared(laws):
-    """{key: declaration} of the numbers of all laws of a registry, in front of the meaning the laws that take it.
+    """{key: declaration} of the numbers of all laws of a registry; each meaning begins with the names of its laws.
 
-    Raises ValueError when two laws declare one key differently.
+    Raises ValueError if two laws declare one key differently.
     """
     out = {}
     for law in laws.values():
@@ -127,7 +128,7 @@ def _with_users(one, names):
 
 
 def section(name, /, **fields):
-    """A frozen dataclass of these declarations, to derive a section of a scene from."""
+    """A frozen dataclass of these declarations, as the base of a section of a scene."""
     return dataclasses.make_dataclass(name, [(key, _type(one.default), one) for key, one in fields.items()], frozen=True)
 
 

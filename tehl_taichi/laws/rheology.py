@@ -1,4 +1,4 @@
-"""The shear stress of the film by the law that a scene chose, all in Pa."""
+"""Shear stress of the film by the law of the scene, all in Pa."""
 
 from tehl_taichi.engine.pointwise import absolute, maximum, minimum, pointwise, unrolled, where
 from tehl_taichi.laws import shear
@@ -12,13 +12,13 @@ DP = 1e3  # Pa, step of the difference quotients of laws: their scale is 1e8 Pa,
 
 @unrolled
 def shear_stress(rheology, newtonian, p):
-    """Stress that a film carries for a given Newtonian stress eta * (shear rate)."""
+    """Stress of a film for a given Newtonian stress eta * (shear rate)."""
     return LAWS[rheology.law].stress(rheology, newtonian, p)
 
 
 @pointwise
 def secant(rheology, newtonian, p):
-    """shear_stress / newtonian: what is left of the viscosity, 1 without shear."""
+    """Factor of shear thinning, shear_stress / newtonian: 1 without shear."""
     small = absolute(newtonian) < 1e-3
     safe = where(small, newtonian + 1.0, minimum(maximum(newtonian, -LARGEST), LARGEST))
     return where(small, 0.0 * newtonian + 1.0, shear_stress(rheology, safe, p) / safe)

@@ -1,8 +1,8 @@
-"""Flow by pressure of a film of one viscosity whose walls slide, by the law that a scene chose.
+"""Pressure-driven flow of a film with one viscosity between sliding walls, by the shear law of the scene.
 
-Each gives the flow over that of Newtonian oil and its derivatives by ln wall, ln newtonian and p (1/Pa), see
-:class:`tehl_taichi.laws.law.ShearLaw`. Along the sliding the flow is exact. Across it, it is the share of the viscosity that
-the law leaves at the stress of the sliding (exact for small gradients), times the flow without sliding.
+Each function returns the flow relative to Newtonian oil and its derivatives by ln wall, ln newtonian and p (1/Pa), see
+:class:`tehl_taichi.laws.law.ShearLaw`. Along the sliding the flow is exact. Across it, it is the flow without sliding over the
+share of the viscosity that remains at the stress of the sliding (exact for small gradients).
 """
 
 from tehl_taichi.engine.pointwise import pointwise, unrolled
@@ -27,13 +27,13 @@ def beyond(rheology, wall, newtonian, p):
 
 @unrolled
 def mean_stress(rheology, wall, newtonian, p):
-    """Stress in the middle of the film, Pa."""
+    """Stress (Pa) in the middle of the film."""
     return (LAWS[rheology.law].mean_stress or touching_stress)(rheology, wall, newtonian, p)
 
 
 @unrolled
 def wall_slip(rheology, wall, newtonian, p):
-    """Part of the sliding that the oil slips along a wall."""
+    """Part of the sliding that is slip along a wall."""
     law = LAWS[rheology.law]
     none = None if law.flow else touching_slip
     return (law.slip or none)(rheology, wall, newtonian, p) if law.slip or none else 0.0 * wall
@@ -41,15 +41,16 @@ def wall_slip(rheology, wall, newtonian, p):
 
 @unrolled
 def wall_limit(rheology, p):
-    """Largest stress that a wall can carry, Pa."""
+    """Largest stress (Pa) that a wall can carry."""
     law = LAWS[rheology.law].limit
     return law(rheology, p) if law else 0.0 * p + LARGEST
 
 
 @pointwise
 def left_of(rheology, newtonian, p):
-    """Share of the viscosity that the law leaves, and the derivatives of minus its logarithm by ln newtonian and p. (A loop, so
-    that kernels hold the law once.)"""
+    """Share of the viscosity that remains, and the derivatives of minus its logarithm by ln newtonian and p. (A loop, so that
+    kernels contain the law once.)
+    """
     here, more, behind = 0.0 * newtonian, 0.0 * newtonian, 0.0 * newtonian
     for n in range(3):
         first, second = n * (2 - n), 0.5 * (n * (n - 1))
@@ -66,7 +67,7 @@ def sheared(rheology, b, by_newtonian, by_p, part, part_by_wall, part_by_p):
 
 @unrolled
 def across(rheology, wall, yielding, newtonian, p):
-    """Smooth and steep part of the flow across the sliding, each by its own stress of the walls."""
+    """Smooth and steep part of the flow across the sliding, each for its own wall stress."""
     left, none = left_of(rheology, newtonian, p), 0.0 * newtonian
     parts = flow(rheology, wall, none, p), beyond(rheology, yielding, none, p)
     return tuple(sheared(rheology, *left, part, by_wall, by_p) for part, by_wall, _, by_p in parts)

@@ -1,4 +1,4 @@
-"""Solid contact: where the film falls to its floor the surfaces touch, and rub."""
+"""Solid contact: where the film falls to its floor, the surfaces touch with friction."""
 
 from tehl_taichi.engine.pointwise import minimum, pointwise
 from tehl_taichi.laws.law import Law
@@ -9,7 +9,7 @@ from tehl_taichi.values.registry import Checked
 
 @pointwise
 def boundary_stress(rheology, p):
-    """Friction where the surfaces touch, Pa: mu_boundary p, at most the shear limit of what is left between them."""
+    """Friction stress (Pa) of touching surfaces: mu_boundary p, at most the shear limit."""
     return minimum(rheology.mu_boundary * p, shear_limit(rheology, p))
 
 

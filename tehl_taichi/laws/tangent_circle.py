@@ -1,7 +1,7 @@
-"""Flow of a film by a law that brings its stress alone: that of the circular law which touches it.
+"""Flow of a film by a law that defines only its stress: the flow of the tangent circular law.
 
-At the stress of the sliding (and of the gradient, which counts where nothing slides) the circular law a N/sqrt(1 + (a N/c)^2)
-with the same stress and the same slope: exact for the circular law itself, and for all where the gradient is small.
+At the stress of the sliding (and of the gradient, which matters without sliding) the circular law a N/sqrt(1 + (a N/c)^2) has
+the same stress and slope: exact for the circular law itself, and for every law if the gradient is small.
 """
 
 from tehl_taichi.engine.pointwise import maximum, pointwise, sqrt, where
@@ -15,7 +15,7 @@ LEAST = 1.0  # Pa
 
 @pointwise
 def touching(rheology, wall, newtonian, p):
-    """s and r of the circular law, its a, and its limit c, Pa. (Loops, so that kernels hold the law once.)"""
+    """s and r of the tangent circular law, its a, and its limit c, Pa. (Loops, so that kernels contain the law once.)"""
     N = sqrt(newtonian * newtonian + wall * wall / 3.0 + LEAST * LEAST)
     b, rise = 0.0 * N, 0.0 * N
     for n in range(3):
@@ -29,7 +29,7 @@ def touching(rheology, wall, newtonian, p):
 
 @pointwise
 def touching_flow(rheology, wall, newtonian, p):
-    """Flow as in a :class:`tehl_taichi.laws.law.ShearLaw`, its derivatives by differences."""
+    """Flow as in a :class:`tehl_taichi.laws.law.ShearLaw`, with derivatives by differences."""
     here, by_wall, by_newtonian, by_p = 0.0 * wall, 0.0 * wall, 0.0 * wall, 0.0 * wall
     for n in range(4):
         first, second, third = where(n == 1, 1.0, 0.0), where(n == 2, 1.0, 0.0), where(n == 3, 1.0, 0.0)

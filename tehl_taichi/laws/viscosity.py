@@ -1,4 +1,4 @@
-"""The viscosity of an oil by the law that it chose."""
+"""Viscosity of an oil by its law."""
 
 from tehl_taichi.engine.pointwise import unrolled
 from tehl_taichi.laws import viscosities
@@ -16,17 +16,17 @@ def ln_eta(oil, p, Gamma):
 
 @unrolled
 def parts(oil):
-    """Number of the parts of its law that depend on the temperature alone and are worth keeping."""
+    """Number of terms of its law that depend on the temperature alone and are worth storing."""
     return len(LAWS[oil.viscosity].parts)
 
 
 @unrolled
 def part(oil, Gamma, n):
-    """The n-th of them."""
+    """The n-th of these terms."""
     return LAWS[oil.viscosity].parts[n](oil, Gamma)
 
 
 @unrolled
 def ln_eta_of(oil, p, Gamma, values):
-    """:func:`ln_eta` where the values of its parts are known."""
+    """:func:`ln_eta` from stored terms."""
     return LAWS[oil.viscosity].of_parts(oil, p, *values) if values else ln_eta(oil, p, Gamma)

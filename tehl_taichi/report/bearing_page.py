@@ -1,4 +1,4 @@
-"""The page of a rolling bearing: static safety and film first, then loads, contacts and slip, from what its folder keeps."""
+"""Page of a rolling bearing, from its folder: static safety and film first, then loads, contacts and slip."""
 
 import dataclasses
 from pathlib import Path
@@ -40,8 +40,9 @@ def of(folder):
 
 
 def _store(found):
-    """(Reader, name) of the ring that a feature passes, else of that with the smaller static safety; (None, name) without a
-    run."""
+    """(Reader, name) of the ring with a passing feature, else of the one with the smaller static safety; (None, name) without a
+    run.
+    """
     order = sorted(found.rings, key=lambda ring: ("fatigue" not in (found.rings[ring]["summary"] or {}),
                                                   found.rings[ring]["static_safety"]))
     path = found.folder / Path(found.rings[order[0]]["store"]).name
@@ -49,7 +50,7 @@ def _store(found):
 
 
 def answer(found):
-    """Static safety, smallest film and ratio to the roughness; the fatigue of a feature that passes."""
+    """Answer: static safety, smallest film and its ratio to the roughness; fatigue if a feature passes."""
     ring, worst = min(found.rings.items(), key=lambda entry: entry[1]["static_safety"])
     safe, limit = worst["static_safety"], found.record["static_limit_Pa"]
     headline = f"{'Yes' if safe >= 1 else 'No'}: static safety {safe:.2f} at the {ring} ring. {_film(found)}"
@@ -62,7 +63,7 @@ def answer(found):
 
 
 def _film(found):
-    """The thinner film of both contacts in a sentence."""
+    """Sentence about the thinner film of both contacts."""
     films = [(ring, *_central_film(one), bearing_table.film_ratio(found.record, one)) for ring, one in found.rings.items()]
     ring, film, error, how, ratio = min(films, key=lambda entry: entry[1])
     return f"The central film is {value_text(film, error, 'm', FEW)}{how} at the {ring} ring" + (
@@ -70,7 +71,7 @@ def _film(found):
 
 
 def _central_film(one):
-    """(h_c in m, its error or None, " (by formula)" where it is not computed)."""
+    """(h_c in m, its error or None, " (by formula)" if it is not computed)."""
     film = dig(one, "summary", "steady", "h_c_m")
     return (one["film_formula_m"], None, " (by formula)") if film is None else (film, error_of(
         one["summary"], "steady", "h_c_m"), "")
@@ -84,7 +85,7 @@ def _fatigue(found):
 
 
 def limits(found):
-    """What the index 1 stands for, where a feature passed."""
+    """Text of the meaning of Fi = 1, if a feature passed."""
     judged = [ring for ring, one in found.rings.items() if "fatigue" in (one["summary"] or {})]
     return limit_words(scene_file.load(found.folder / f"{judged[0]}.toml")) if judged else ()
 
@@ -94,7 +95,7 @@ def _sentence(words):
 
 
 def figures(found):
-    """Loads around the ring; pressure and slip over both contacts."""
+    """Figures of the loads around the ring, and of pressure and slip across both contacts."""
     azimuth, loads = bearing_figure.azimuths(found)
     bars = {"type": "bar", "x": azimuth.tolist(), "y": loads.tolist(), "marker": {"color": colour(0)}, "showlegend": False}
     layout = {"xaxis": axis(bearing_figure.AZIMUTH), "yaxis": axis(bearing_figure.LOADS),
@@ -113,7 +114,7 @@ def _lines(found, panel, legend=True):
 
 
 def _dimensions(found):
-    """Every value of the bearing that has a part in it, by its meaning, lengths in units that people read; oil and bodies."""
+    """Rows of every relevant value of the bearing, with its meaning and printed units; oil and bodies."""
     known, which = kinds(RollingBearing), found.record["geometry"]
     idle = OF_BALLS if which["element"] == ROLLER else OF_ROLLERS
     values = [(known[key].about.partition(";")[0], _value(value, known[key])) for key, value in which.items()
@@ -130,7 +131,7 @@ def _value(value, declared):
 
 
 def _sources(found):
-    """Source of the dimensions; files of both scenes."""
+    """Text of the source of the dimensions, and of the scene files."""
     scenes = ", ".join(Path(one["scene_file"]).name for one in found.rings.values())
     return [f"Dimensions: {found.record['source']}.", f"Scenes of both contacts, to run and change: {scenes}.",
             *filter(None, [_sentence(bearing_table.estimated_words(found))])]

@@ -1,4 +1,4 @@
-"""The page of a cam: thinnest film and largest index over the cycle, from what its folder keeps."""
+"""Page of a cam, from its folder: thinnest film and largest index over the cycle."""
 
 import numpy as np
 
@@ -39,7 +39,7 @@ def _places(cam):
 
 
 def _answer(cam, store):
-    """The thinnest film, or the largest index where features pass."""
+    """Answer: the thinnest film, or the largest index if features pass."""
     left = f"{len(cam.failed)} of {len(cam.rows)} angles have no result and are not part of this answer."
     doubts = (*place_sections.limit(store), f"Assumed: {cam.record['assumption']}.", *[left] * bool(cam.failed))
     thin = _thinnest(cam)
@@ -51,7 +51,7 @@ def _answer(cam, store):
 
 
 def _thinnest(cam):
-    """The smallest steady film in a sentence; "" without results."""
+    """Sentence about the smallest steady film; "" without results."""
     films = [(dig(summary, "steady", "h_min_m"), error_of(summary, "steady", "h_min_m"), at) for at, _, summary in cam.rows
              if summary]
     if not films:
@@ -61,7 +61,7 @@ def _thinnest(cam):
 
 
 def figures(cam):
-    """The panels of the figure, as far as they have values."""
+    """Figures of the panels with values."""
     return [stacked(f"cam-{n}", f"{sentence_case(label)}.", cam_figure.ANGLE, [(label, [
         _line(name, x.tolist(), y.tolist(), factor, colour(m)) for m, (name, (x, y, _)) in enumerate(lines.items())], {})],
         height=330) for n, (label, factor, lines) in enumerate(cam_figure.panels(cam))]

@@ -1,4 +1,4 @@
-"""The way to a verdict in one figure: load, stress, strength and index, the last three over the depth."""
+"""Figure of the way to a verdict: load, stress, strength and index, the last three over the depth."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ DEPTH = "below the surface (µm)"
 
 
 def figures(store, search):
-    """[the figure], [] where nothing was searched below the surface."""
+    """[the figure], [] without a search below the surface."""
     if search.result.findley_stress_under_row is None or "below" not in search.result.numbers:
         return []
     body = search.result.numbers.get("surface", "a")
@@ -31,12 +31,12 @@ def figures(store, search):
 
 
 def _panel(n, traces):
-    """Traces in the n-th panel, whose axes have its number; names are repeated in the legend once."""
+    """Traces in the n-th panel, on its axes; names are in the legend once."""
     return [{**trace, "xaxis": f"x{n}" if n > 1 else "x", "yaxis": f"y{n}" if n > 1 else "y"} for trace in traces]
 
 
 def _layout():
-    """Layout of two rows of two panels; panels over the depth have it downwards."""
+    """Layout of two rows of two panels; depth points down."""
     places = ((LEFT, TOP), (RIGHT, TOP), (LEFT, BOTTOM), (RIGHT, BOTTOM))
     out = {"margin": {"l": 10, "r": 14, "t": 60, "b": 10}, "hovermode": "closest",
            "legend": {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom"}}
@@ -50,7 +50,7 @@ def _layout():
 
 
 def _load(store):
-    """Pressure along the row of the lines at the moment of its largest value, and of the smooth contact."""
+    """Lines of the pressure along the row of lines at the moment of its largest value, and of the smooth contact."""
     X, moments = store.x / Scales.of(store.scene).a, Moments(store)
     shown = (X >= WINDOW[0]) & (X <= WINDOW[1])
     p = {n: store.fields(n, ("pressure",))["pressure"][shown, moments.line] / 1e9 for n in (moments.worst, 0)}
@@ -67,7 +67,7 @@ def _stress(search):
 
 
 def _strength(search, left=None):
-    """Fatigue limit beside the largest stress, and residual stress where there is any; left: the ResidualField of a run-in."""
+    """Lines of the fatigue limit, the largest stress, and the residual stress if any; left: ResidualField of a run-in."""
     result = search.result
     strength, z = _of_body(search), result.row_depths * 1e6
     limits = np.full(z.size, result.numbers["sigma_eF_Pa"]) if result.limit_under_row is None else result.limit_under_row
@@ -84,13 +84,13 @@ def _strength(search, left=None):
 
 
 def _of_body(search):
-    """Strength of the body that was searched."""
+    """Strength of the searched body."""
     name = search.result.numbers.get("surface", "a")
     return Strength(search.scene.fatigue, next(one for one in search.scene.surfaces if one.name == name))
 
 
 def _verdict(search):
-    """Index at each depth, its largest values and the limit."""
+    """Lines of the index over depth, its largest values and the limit."""
     result, z = search.result, search.result.row_depths * 1e6
     f, alone = result.numbers, result.index("findley_stress_contact_alone")
     deep = f["below"]

@@ -1,4 +1,4 @@
-"""Cracks of a run, if `tehl crack --keep` stored them: the answer, the section below the feature, K in the passage."""
+"""Cracks of a run, stored by `tehl crack --keep`: the answer, the section below the feature, K over the passage."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ POSITION = "position of the feature x / a"
 
 
 def section(store):
-    """(:class:`Section`,), or () where nothing is kept of this run. Raises StoreError."""
+    """(:class:`Section`,), or () without a stored crack result of this run. Raises StoreError."""
     found = kept(store)
     if not found:
         return ()
@@ -24,7 +24,7 @@ def section(store):
 
 
 def verdict(summary):
-    """A sentence for each side: what pulls, where the crack goes, what drives it, why it stops."""
+    """One sentence per side: tension, direction of the crack, its driving load, reason of its end."""
     return [_sentences(name, side, summary["pit_angles_deg"]) for name, side in summary["sides"].items()]
 
 
@@ -40,7 +40,7 @@ def _sentences(name, side, pits):
 
 
 def _angles(path, pits):
-    """Lean of the crack as text, and its angle at the largest depth."""
+    """Text of the crack's lean, and its angle at the largest depth."""
     chords = [(depth, angle) for depth, angle in path["chord_deg_at_um"].items() if angle is not None]
     at = f" at {chords[-1][1]:.0f}° to the surface at {chords[-1][0]} µm depth" if chords else ""
     return f"; the crack leans {path['lean']}{at} (pits: with rolling, {pits[0]:g} to {pits[1]:g}°)"
@@ -56,7 +56,7 @@ def _options(summary):
 
 
 def _map(summary, shown):
-    """Largest tension of the passage, trajectories, cracks and the band of the pits."""
+    """Map of the largest tension of the passage, with trajectories, cracks and the band of the pits."""
     x, depth, tension = (np.array(shown[key]) for key in ("x", "depth", "tension"))
     marked = [one for n, (name, side) in enumerate(shown["sides"].items())
               for one in (*_band(name, side, summary["pit_angles_deg"], n == 0), *_lines(name, side, n))]
@@ -69,7 +69,7 @@ def _map(summary, shown):
 
 
 def _band(name, side, pits, in_legend):
-    """Pits lean with rolling from the mouth on, wherever that is."""
+    """Band of the pits, which lean with rolling from the mouth."""
     mouth, band = 1e6 * side["path"][0][0], 1e6 * BAND
     ends = band * np.tan(np.radians(pits))
     return [line([mouth, mouth - band, mouth - band, mouth], [0, *ends, 0], f"pits, {pits[0]:g} to {pits[1]:g}°", GREY,
@@ -83,7 +83,7 @@ def _lines(name, side, n):
 
 
 def _histories(shown):
-    """K of the first and of the last length over the feature's position, a figure for each side that has a crack."""
+    """Figures of K at the first and last length over the feature's position, one for each side with a crack."""
     return [_history(name, side["K"], shown["position"]) for name, side in shown["sides"].items() if side["K"]]
 
 

@@ -12,21 +12,22 @@ TEMPLATES = Path(__file__).parent / "templates"
 
 @dataclass(frozen=True)
 class PageBlock:
-    """kind: its template, templates/parts/KIND.html; data: what that shows."""
+    """A part of a page. kind: its template, templates/parts/KIND.html; data: for the template."""
 
     kind: str
     data: dict
 
     @property
     def figures(self):
-        """The :class:`tehl_taichi.report.plots.Figure` of it."""
+        """Its figures, each a :class:`tehl_taichi.report.plots.Figure`."""
         return self.data.get("figures", ())
 
 
 @dataclass(frozen=True)
 class Section:
-    """A heading and its parts (None: nothing to show); a section without parts is left out. front: whether it belongs to the
-    answer, right below it and on the second page of paper; the others are an appendix."""
+    """A heading and its parts (None: nothing to show); a section without parts is left out. front: it belongs to the answer,
+    right below it and on the second printed page; others are an appendix.
+    """
 
     title: str
     parts: tuple
@@ -44,8 +45,9 @@ class Section:
 
 @dataclass(frozen=True)
 class Answer:
-    """question; headline: the answer in a sentence; tone: yes, no, open or none, which gives its colour; sentences: why;
-    doubts: what makes it less sure; warnings: those of the run; known_before: those that its scene gave before it ran."""
+    """question; headline: the answer in one sentence; tone: yes, no, open or none, for the colour; sentences: reasons; doubts:
+    uncertainties; warnings: of the run; known_before: those that the scene gave before the run.
+    """
 
     question: str
     headline: str
@@ -57,8 +59,9 @@ class Answer:
 
     @property
     def groups(self):
-        """[(heading, warnings)]: those of the result first, which the answer hangs on; none that is empty.
-        In words for readers."""
+        """[(heading, warnings)] that are not empty, in words for readers: first those of the result, which affect the
+        answer.
+        """
         found = [without_options(one) for one in self.warnings if one not in self.known_before]
         known = [without_options(one) for one in self.warnings if one in self.known_before]
         return [group for group in (("About the result", found), ("About the scene", known)) if group[1]]
@@ -66,7 +69,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Page:
-    """title; about: what it is a page of, a line; answer; sections."""
+    """title; about: one line about its subject; answer; sections."""
 
     title: str
     about: str
@@ -75,13 +78,13 @@ class Page:
 
     @property
     def front(self):
-        """Sections that belong to the answer: those that say so, else the first."""
+        """Sections that belong to the answer: those with `front`, else the first."""
         found = [section for section in self.sections if section.shown]
         return [section for section in found if section.front] or found[:1]
 
     @property
     def shown(self):
-        """All sections with something to show, those of the answer first."""
+        """All sections with content, those of the answer first."""
         first = self.front
         return first + [section for section in self.sections if section.shown and section not in first]
 
@@ -97,7 +100,7 @@ def table(head, rows, caption="", words=1):
 
 
 def facts(rows):
-    """Pairs of (what, value); None without any."""
+    """A table of pairs (label, value); None without any."""
     return PageBlock("facts", {"rows": rows}) if rows else None
 
 
@@ -129,7 +132,7 @@ def rendered(page):
 
 
 def _spelled(value):
-    """A value of a template; letters that do not print are spelled."""
+    """Value of a template with non-printing letters spelled."""
     return printable(value, "\n") if type(value) is str else value  # Markup is ours
 
 
@@ -137,7 +140,7 @@ LABELS = ("text", "name", "ticktext", "legendgroup")
 
 
 def _labelled(spec, key=""):
-    """Description of a figure with its labels as plotly.js shows them."""
+    """Description of a figure with its labels escaped for plotly.js."""
     if isinstance(spec, dict):
         return {name: _labelled(value, name) for name, value in spec.items()}
     if isinstance(spec, (list, tuple)):

@@ -1,5 +1,6 @@
-"""Large parts of a page, packed into text: plotly.js and the numbers of the figures, as base64 of a gzip that the browser
-unpacks."""
+"""Packing of large parts of a page as text: plotly.js and the numbers of the figures, base64 of a gzip that the browser
+unpacks.
+"""
 
 import base64
 import functools
@@ -16,12 +17,12 @@ LEVEL = 6  # 9 takes three times as long for the numbers of figures, for 2 % les
 
 
 def packed(text):
-    """`text` (str) for a <script> that the page unpacks: a fifth to a half of its size."""
+    """Packed text (str) for a <script> of the page: a fifth to a half of the size."""
     return base64.b64encode(gzip.compress(text.encode(), LEVEL, mtime=0)).decode()
 
 
 def check_installed():
-    """Raise StoreError without what a page is made with."""
+    """Raise StoreError if a library for pages is missing."""
     for name in ("jinja2", "plotly"):
         try:
             importlib.import_module(name)
@@ -31,14 +32,14 @@ def check_installed():
 
 @functools.cache
 def library():
-    """plotly.js as its Python package brings it, packed."""
+    """plotly.js from its Python package, packed."""
     from plotly.offline import get_plotlyjs
 
     return packed(get_plotlyjs())
 
 
 def as_json(figures):
-    """Figures as JSON text; arrays are typed ones of single precision, as plotly.js reads them."""
+    """Figures as JSON text; arrays are typed, in single precision, as plotly.js reads them."""
     return json.dumps(typed(figures), allow_nan=False, separators=(",", ":"))
 
 

@@ -1,4 +1,4 @@
-"""The index around the feature and below it, and the stresses of the worst points."""
+"""Index around the feature and below it, and stresses of the worst points."""
 
 import numpy as np
 
@@ -21,7 +21,7 @@ POINTS = {"surface": ("worst", "critical point at the surface"), "below": ("wors
 
 
 def index(search):
-    """Fi of the surface and of the worst depth, with the worst points; lines over x where there is one row only."""
+    """Figures of Fi at the surface and at the worst depth, with the worst points; lines over x if there is only one row."""
     f, Fi = search.result.numbers, search.result.Fi
     if Fi is None:
         return []
@@ -37,15 +37,16 @@ def index(search):
 
 
 def _listed(search, Fi, worst):
-    """The listed depth next to the worst; Fi (depth, x, y)."""
+    """Figure of the listed depth next to the worst; Fi (depth, x, y)."""
     depths = search.result.fatigue_depth
     n = beside_worst(depths, worst["depth_m"])
     return _layer(search, depths[n], Fi[n], worst)
 
 
 def _layer(search, depth, Fi, worst):
-    """One depth (m) with Fi (x, y): with the worst point below where it lies there, else with its own largest value, and in
-    words which depth is the worst: looked for under some rows, between the depths whose points were all searched."""
+    """Figure of one depth (m) with Fi (x, y): with the worst subsurface point if it is there, else with its own largest value;
+    the caption names the worst depth, which is sought between the fully searched depths, below some rows.
+    """
     if np.isclose(depth, worst["depth_m"]):
         return _map(search, "below", _depth(depth), Fi, worst)
     elsewhere = (f". The critical depth is {worst['depth_m'] * 1e6:.3g} µm, under the row y = {worst['y_m'] * 1e6:.0f} µm, "
@@ -58,8 +59,9 @@ def _depth(depth):
 
 
 def _map(search, which, where, Fi, found, more=""):
-    """One layer with the line of the fatigue limit, its worst point with the trace of the critical plane in it (found: its
-    summary; None: the largest value is no worst point); more: at the end of the caption."""
+    """Map of one layer with the line of the fatigue limit, and its worst point with the trace of the critical plane (found: its
+    summary; None: the largest value is no worst point); more: end of the caption.
+    """
     x, (y, full) = search.result.feature_frame_x * 1e6, mirrored(search.result.feature_frame_y * 1e6, Fi)
     trace = _trace(search, which, found, 0.12 * np.ptp(x)) if found else []
     marked = [*_limit(x, y, full), _marked(search, Fi, found), *trace, *numbered(search)]
@@ -69,7 +71,7 @@ def _map(search, which, where, Fi, found, more=""):
 
 
 def _marked(search, Fi, found):
-    """Mark of the worst point, or of the largest value of a layer where that is none."""
+    """Mark of the worst point, or of the largest value of a layer without it."""
     if found:
         return marks([found["x_m"] * 1e6], [found["y_m"] * 1e6], f"critical point, Fi = {largest(found)}", MARK)
     i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
@@ -78,7 +80,9 @@ def _marked(search, Fi, found):
 
 
 def _trace(search, which, found, length):
-    """[line] where the critical plane of the worst point cuts the layer, `length` µm to both sides; [] where it does not."""
+    """[line] where the critical plane of the worst point cuts the layer, `length` µm to both sides; [] if it does not cut
+    it.
+    """
     history = getattr(search.result, POINTS[which][0])
     if not history or (flat := np.hypot(*history["normal"][:2])) <= 1e-6:
         return []
@@ -94,7 +98,7 @@ def _briefly(search):
 
 
 def _limit(x, y, Fi):
-    """The line Fi = 1, where the map crosses it; of what is above it no more than the line needs, which keeps pages small."""
+    """Line Fi = 1 if the map crosses it; values above are clipped, which keeps pages small."""
     if not crossed(Fi):
         return []
     i, j = (_around(np.any(Fi > 1, axis=axis)) for axis in (1, 0))
@@ -102,7 +106,7 @@ def _limit(x, y, Fi):
 
 
 def _around(found):
-    """Slice of those that are True and one more at each end."""
+    """Slice of the True entries and one more at each end."""
     at = np.flatnonzero(found)
     return slice(max(at[0] - 1, 0), at[-1] + 2)
 
@@ -115,7 +119,7 @@ def _over_x(search, f, Fi):
 
 
 def distribution(search):
-    """Share of rough surfaces above an index."""
+    """Figure of the share of rough surfaces above an index."""
     if not distribution_figure.shown(search.result):
         return []
     traces = [line(Fi, 100 * share, label, colour(n))
@@ -125,7 +129,7 @@ def distribution(search):
 
 
 def depth(search):
-    """[section under the feature, largest index over depth]; [] where nothing was searched below."""
+    """[section below the feature, largest index over depth]; [] without a search below the surface."""
     f, Fi = search.result.numbers, search.result.index("findley_stress_under_row")
     if Fi is None or "below" not in f:
         return []
@@ -154,7 +158,7 @@ def _over_depth(search, f, deep, z, Fi):
 
 
 def worst_points(search):
-    """[(stresses over the passage, shear path on the critical plane)] of the worst point of the surface and of that below."""
+    """[(stresses over the passage, shear path on the critical plane)] of the worst points at and below the surface."""
     out = []
     for which, (name, text) in POINTS.items():
         if history := getattr(search.result, name):

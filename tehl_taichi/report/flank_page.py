@@ -1,4 +1,4 @@
-"""The page of a flank: where along it a crack would start, from what its folder keeps."""
+"""Page of a flank, from its folder: the position where a crack would start."""
 
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
@@ -53,7 +53,7 @@ def _where(at):
 
 
 def short_name(at):
-    """A position in few words."""
+    """Short text of a position."""
     return at.point or f"{at.x_pl * 1e3:.3g} mm"
 
 
@@ -63,13 +63,13 @@ def judged_places(flank):
 
 
 def verdict(flank):
-    """(question, headline, tone, sentences) of a flank with an index somewhere, None of another one."""
+    """(question, headline, tone, sentences) of a flank with an index, None without one."""
     places = judged_places(flank)
     return (QUESTION, *place_verdict.answer(places, len(flank.rows))) if places else None
 
 
 def _answer(flank, store):
-    """store: of the critical position, or None."""
+    """Answer of a flank; store: of the critical position, or None."""
     left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not part of this answer."
     count = f"Number of warnings, listed below: {len(warnings(flank))}."
     none = [f"No verdict at {_where(at)}: {why_none(part)}." for at, _, summary in flank.rows
@@ -95,13 +95,13 @@ def _of_films(flank, doubts):
 
 
 def figures(flank):
-    """Film, pressure, temperature, index, friction and slip over the flank, as far as there are any."""
+    """Figures of film, pressure, temperature, index, friction and slip over the flank, if available."""
     found = ((title, _lines(flank, lines, factor)) for title, factor, lines in PANELS)
     return [_figure(flank, n, title, lines) for n, (title, lines) in enumerate(found) if lines]
 
 
 def _figure(flank, n, title, lines):
-    """One of them, with the points A to E."""
+    """One of these figures, with the points A to E."""
     letters = ", dotted: the points of the path of contact" if flank.points else ""
     made = stacked(f"flank-{n}", f"{sentence_case(title)}; dedendum left of the pitch point{letters}.", ALONG,
                    [(title, lines, {})], height=330)
@@ -131,7 +131,7 @@ def _lines(flank, lines, factor):
 
 
 def _series(flank, what):
-    """(x_pl, values) of the positions that have it; None where the load jumps: the line breaks there."""
+    """(x_pl, values) of the positions with this value; None at a load jump breaks the line."""
     x: list[float | None] = []
     y: list[float | None] = []
     for at, p_H, summary in flank.rows:
@@ -144,7 +144,7 @@ def _series(flank, what):
 
 
 def gears(flank):
-    """Rows of the geometry, (what, value) each, lengths in units that people read."""
+    """Rows (label, value) of the geometry, lengths in printed units."""
     given, known = flank.record["geometry"], kinds(GearPair)
     rows = [(known[key].about.partition(";")[0], value_in(known[key].unit, given[key]))
             for key in known if _is_given(key, given)]
@@ -157,7 +157,7 @@ def _is_given(key, given):
 
 
 def value_in(unit, value):
-    """A number of the gears with its unit."""
+    """Text of a number of the gears with its unit."""
     if isinstance(value, (str, int)):
         return str(value)
     factor, shown = fitting(unit, value)
@@ -165,7 +165,7 @@ def value_in(unit, value):
 
 
 def film_words(flank):
-    """(sentence,) on the smallest specific film, () without any."""
+    """(sentence,) about the smallest specific film, () without one."""
     if not (least := specific_film.smallest(flank)):
         return ()
     ratio, at = least
@@ -176,19 +176,19 @@ def film_words(flank):
 
 
 def no_film_words(flank):
-    """(sentence,) on why there is no film over the roughness, () where there is one."""
+    """(sentence,) about the reason why film over roughness is missing, () if it exists."""
     if specific_film.smallest(flank) or any(dig(summary, "lambda") is not None for *_, summary in flank.rows):
         return ()
     return ("λ is not known: the surfaces are smooth, and no roughness of the flanks is given (gear.Ra1, gear.Ra2).",)
 
 
 def warnings(flank, spelled=without_options):
-    """Warnings of all positions, each kind once with its positions; spelled: for a page by default."""
+    """Warnings of all positions, each kind once with its positions; spelled: function for their texts (default: for a page)."""
     return place_warnings.of(flank.rows, short_name, spelled)
 
 
 def _provenance(flank):
-    """Versions in the summaries."""
+    """Rows with the versions in the summaries."""
     versions = sorted({summary["version"] for *_, summary in flank.rows if summary})
     seconds = sum(summary["wall_s"] for *_, summary in flank.rows if summary)
     return [("folder", flank.folder.name), ("version", ", ".join(versions)), ("run time of all positions", f"{seconds:.0f} s")]

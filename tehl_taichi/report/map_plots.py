@@ -20,8 +20,10 @@ LYING = 230  # px: height of a map of a wide ellipse on its side
 
 
 def maps(store):
-    """Pressure, film, temperatures over x, y; none where nothing varies across. A wide ellipse lies with its long axis to the
-    right, and pressure and film have maps of its middle, too."""
+    """Maps of pressure, film, temperatures over x, y; [] if nothing varies along y.
+
+    A wide ellipse has its long axis to the right, and pressure and film have further maps of its middle.
+    """
     if store.y.size == 1:
         return []
     moments, styles = Moments(store), _styles(store)
@@ -35,7 +37,7 @@ def maps(store):
 
 
 def rows(store):
-    """Lists of the same maps, each for a row of a page: a lying ellipse takes the whole width."""
+    """Lists of these maps, each for a row of a page: a turned ellipse takes the whole width."""
     found = maps(store)
     if not found or not lies(store.scene):
         return [found] if found else []
@@ -45,8 +47,7 @@ def rows(store):
 
 
 def _map(moments, name, values, style, when, side=0.0):
-    """The map of a field; side: half-width in a of what is shown across (0: all of it, of a wide ellipse a little more than
-    it)."""
+    """Map of a field; side: half-width in a shown across (0: all; for a wide ellipse slightly more)."""
     text, scale, unit, factor, keys = style
     store, where = moments.store, columns(moments.store)
     y, full = mirrored(store.y / moments.a, values[where] * factor)
@@ -68,13 +69,13 @@ def _map(moments, name, values, style, when, side=0.0):
 
 
 def _film(moments, film):
-    """Style of the film: colours of its own range inside the contact."""
+    """Style of the film: colour range of the film inside the contact."""
     low, top = (round(end * 1e6, 4) for end in film_ends(moments, film))
     return f"Film, thicker than {top:.3g} µm in the last colour", FILM, "µm", 1e6, {"zmin": low, "zmax": top}
 
 
 def _when(moments):
-    """The moment that is shown, in words."""
+    """Text of the shown moment."""
     of = "the largest pressure of the passage, " if moments.store.steps > 1 else ""
     return f"{of}{moments.peak(moments.worst)}"
 
@@ -89,7 +90,7 @@ def _styles(store):
 
 
 def _alike(figures):
-    """Both surfaces in one colour scale; the film, far hotter, has its own."""
+    """Use one colour scale for both surfaces; the film, far hotter, has its own."""
     heat = [figure.traces[0] for figure in figures if figure.name in BODIES]
     for trace in heat:
         trace |= dict(zip(("zmin", "zmax"), ends([one["z"] for one in heat])))

@@ -1,4 +1,4 @@
-"""Numbers as people read them: in a unit that suits them, with as many digits as their error leaves."""
+"""Printed numbers: in a suitable unit, with as many digits as their error allows."""
 
 from tehl_taichi.values.digits import fitting, parted, with_error
 
@@ -6,14 +6,17 @@ UNITS = {"degC": "°C", "1": ""}  # of stores: as they are written
 
 
 def value_text(value, error=None, unit="1", digits=4):
-    """'1.008 ± 0.023 µm' of a value and its error in SI; error None: not known, then so many digits of the value."""
+    """Text such as '1.008 ± 0.023 µm' of a value and its error in SI; error None: unknown, then `digits` digits of the
+    value.
+    """
     factor, scale = fitting(UNITS.get(unit, unit), value)
     return with_error(value * factor, None if error is None else error * factor, scale, digits)
 
 
 def apart(value, error, unit, digits=4):
-    """(value, error, unit) in words: two digits of the error set the digits of the value; `digits` of it, and '' for
-    the error, where that is not known."""
+    """(value, error, unit) as texts: two digits of the error set the digits of the value; unknown error: `digits` digits, and
+    ''.
+    """
     factor, scale = fitting(UNITS.get(unit, unit), value)
     text, rest, power = parted(value * factor, None if error is None else error * factor, digits)
     return text + power, rest and rest + power, scale
@@ -23,28 +26,28 @@ FEW = 3  # digits of what was computed without a known error; numbers that were 
 
 
 def roughly(value):
-    """Two digits of a number (of 1) whose error is not known, more only where they would hide on which side of 1 it lies."""
+    """Text of a number with unknown error: two digits, more only if rounding would hide on which side of 1 it is."""
     text = f"{value:.2g}"
     return text if float(text) != 1 else f"{value:.4g}"
 
 
 def index(Fi, error=None):
-    """An index of fatigue with its error, roughly where that is not known."""
+    """Text of a fatigue index with its error, or roughly if the error is not known."""
     return roughly(Fi) if error is None else value_text(Fi, error)
 
 
 def share(part, whole):
-    """'1.2 %' of a whole, '' where there is none."""
+    """Text such as '1.2 %' of a whole, '' without one."""
     return f"{abs(part / whole) * 100:.2g} %" if whole else ""
 
 
 def unit_spelled(text):
-    """Text with the units of a terminal as pages spell them."""
+    """Text with the units of a terminal spelled for pages."""
     for plain, spelled in ((" um", " µm"), ("deg C", "°C"), ("lambda", "λ")):
         text = text.replace(plain, spelled)
     return text
 
 
 def sentence_case(text):
-    """Text as it begins a sentence; Greek symbols stay as they are."""
+    """Text with a capital first letter; Greek symbols are unchanged."""
     return text[0].upper() + text[1:] if text[0].isascii() else text

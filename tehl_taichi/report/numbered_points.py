@@ -1,4 +1,4 @@
-"""The worst places of a surface with many heights, by number: in the maps of the index and in a table."""
+"""Numbered worst places of a surface with many heights, for the maps of the index and a table."""
 
 from dataclasses import dataclass
 
@@ -21,8 +21,9 @@ APART = 0.25  # half-widths between two of them: asperities nearer to each other
 
 @dataclass(frozen=True)
 class NumberedPoint:
-    """x, y: m, from the feature's centre; Fi: at the surface, below: at the worst depth (None: not searched at all points),
-    each the largest around it; height: m."""
+    """x, y: m, from the feature's centre; Fi: at the surface, below: at the worst depth (None: not all points were searched),
+    each the largest nearby; height: m.
+    """
 
     x: float
     y: float
@@ -32,8 +33,9 @@ class NumberedPoint:
 
 
 def places(search):
-    """A list of :class:`NumberedPoint`, the worst first; [] of a single asperity, dent or ridge, whose critical point is
-    enough."""
+    """List of :class:`NumberedPoint`, the worst first; [] for a single asperity, dent or ridge, whose critical point
+    suffices.
+    """
     Fi, scene = search.result.Fi, search.scene
     if Fi is None or Fi.shape[1] == 1 or not _many(scene):
         return []
@@ -51,7 +53,7 @@ def places(search):
 
 
 def _many(scene):
-    """Whether more than one height passes: several features, or patches of them."""
+    """Whether many heights pass: several features, or patches of them."""
     return len(scene.features) > 1 or any("extent_x" in f.kind.uses for f in scene.features)
 
 
@@ -60,7 +62,7 @@ def _below(search):
 
 
 def numbered(search):
-    """[trace] of their numbers on a map."""
+    """[trace] with their numbers on a map."""
     found = search.places
     text = [str(n) for n in range(1, len(found) + 1)]
     font = {"color": LIMIT, "size": 13, "shadow": "auto"}  # readable on light colours, too
@@ -70,7 +72,7 @@ def numbered(search):
 
 
 def rows(search):
-    """The table of them, None where there are none."""
+    """Table of these points, None without any."""
     found, scene = search.places, search.scene
     if not found:
         return None
@@ -93,7 +95,7 @@ def _columns(search, scene, found):
 
 
 def _in_file(scene, p):
-    """Row and column, and whether heights fade out there."""
+    """Text of row and column, with a note if heights fade out there."""
     first = scene.features[0]
     fades = min(first.to_rim(p.x - first.x, p.y - first.y)) < first.taper
     return in_file(scene, p.x, p.y) + ", fading out at the rim" * fades

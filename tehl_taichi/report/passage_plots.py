@@ -1,4 +1,4 @@
-"""The passage of the feature: the centreline at each moment, with a slider, and what changes over the feature's position."""
+"""Passage of the feature: the centreline at each moment, with a slider, and numbers over the feature's position."""
 
 import numpy as np
 
@@ -22,20 +22,20 @@ def thinned(count, most):
 
 
 def moments(store):
-    """Entries that the slider stops at: even ones, and those of the largest pressure and the smallest film."""
+    """Entries at which the slider stops: evenly spaced ones, and those of the largest pressure and the smallest film."""
     extremes = [Moments(store).worst, int(np.argmin(store.scalar("h_min_m")))]
     return np.union1d(thinned(store.steps, MOMENTS), extremes)
 
 
 def columns(store):
-    """Columns of the grid that are shown: the contact and what is close to it."""
+    """Shown columns of the grid: the contact and its surroundings."""
     X = store.x / Scales.of(store.scene).a
     near = np.flatnonzero((X >= WINDOW[0]) & (X <= WINDOW[1]))
     return near[thinned(len(near), COLUMNS)]
 
 
 def centreline(store):
-    """Pressure, film and temperatures along x; with several entries a slider moves through them."""
+    """Figure of pressure, film and temperatures along x; with several entries a slider moves through them."""
     shown, where = moments(store), columns(store)
     lines = _lines(store, shown, where)
     X = store.x[where] / Scales.of(store.scene).a
@@ -49,7 +49,7 @@ def centreline(store):
 
 
 def _lines(store, shown, where):
-    """{field: (moments, columns)} in the row of the lines, in the units that are shown."""
+    """{field: (moments, columns)} in the row of the lines, in printed units."""
     names = [name for *_, group in FIELDS for name in group if name in store.stored]
     factors = {name: factor for _, factor, group in FIELDS for name in group}
     row, out = Moments(store).line, {name: np.empty((len(shown), len(where)), "f4") for name in names}
@@ -60,7 +60,7 @@ def _lines(store, shown, where):
 
 
 def _traces(X, values, name, text, panel):
-    """The steady start in grey, and a line that the slider moves."""
+    """Traces: the steady start in grey, and a line that the slider moves."""
     several = len(values) > 1
     hue, dash = (colour(1 + list(DASHES).index(name)), DASHES[name]) if text else (colour(0), "solid")
     now = line(X, values[0], text or "this moment", hue, panel, dash, in_legend=bool(text) or panel == 1 and several)
@@ -70,7 +70,7 @@ def _traces(X, values, name, text, panel):
 
 
 def _range(store, lines, names):
-    """Ends of an axis that hold all moments; of the film: what the figures of `tehl plot` show."""
+    """Ends of an axis for all moments; for the film those of `tehl plot`."""
     if "film" in names:
         return [0.0, film_top(store) * 1e6]
     low, high = min(lines[name].min() for name in names), max(lines[name].max() for name in names)
@@ -78,7 +78,7 @@ def _range(store, lines, names):
 
 
 def film_top(store):
-    """Largest film shown, m: as in the figures of `tehl plot`, at the worst moment too."""
+    """Upper end (m) of the film's axis: as in the figures of `tehl plot`, including the worst moment."""
     found = Moments(store)
     return found.film_top({*found.several(), found.worst})
 
@@ -88,7 +88,7 @@ def _ends(X):
 
 
 def _slides(store, shown, lines, panels):
-    """Data of the slider: the lines of every moment, which traces they are, the positions of the feature, words."""
+    """Data of the slider: lines of every moment, their traces, positions of the feature, texts."""
     traces, found = [trace for _, group, _ in panels for trace in group], Moments(store)
     at = store.scalar("feature_x")[shown] / found.a
     return {"slides": {"lines": list(lines.values()), "traces": [n for n in range(len(traces)) if n % 2],
@@ -98,14 +98,14 @@ def _slides(store, shown, lines, panels):
 
 
 def _label(moments, n):
-    """A moment in words."""
+    """Text of a moment."""
     store = moments.store
     p, h = store.scalar("p_max_Pa")[n] / 1e9, store.scalar("h_min_m")[n] * 1e6
     return f"{moments.says(n)}: p_max {p:.3f} GPa, h_min {h:.3f} µm"
 
 
 def _carries(store):
-    """A sentence on the surfaces, where their temperatures are drawn."""
+    """Sentence about the surfaces, if their temperatures are drawn."""
     return "" if store.scene.isothermal or not store.scene.transient else f" {carrier(store.scene).capitalize()}."
 
 
@@ -126,7 +126,7 @@ HISTORIES = (("largest pressure (GPa)", 1e-9, {"p_max_Pa": ""}), ("smallest film
 
 
 def histories(store):
-    """Extremes and friction over the position of the feature; None without a passage."""
+    """Figure of extremes and friction over the position of the feature; None without a passage."""
     if store.steps < 3:
         return None
     x, window = store.scalar("feature_x")[1:] / Scales.of(store.scene).a, ZoomWindow.of(store)
@@ -147,7 +147,7 @@ LEFT_OVER = {"residual": "residual", "load_error": "load", "mass_error": "mass"}
 
 
 def residual_plot(store):
-    """Residual of the discrete equations at every step; None without a passage."""
+    """Figure of the residual of the discrete equations at every step; None without a passage."""
     if store.steps < 3:
         return None
     x = store.scalar("step")

@@ -1,4 +1,4 @@
-"""Sections on contacts along something: the critical position with its maps, the scene that all have in common, whose limit."""
+"""Sections of pages about sequences of contacts: critical position with its maps, common scene, meaning of the limit."""
 
 from tehl_taichi.report import fatigue_plots, map_plots, place_verdict, scene_text, surface_plots
 from tehl_taichi.report.document import PageBlock, Section, drawn, facts
@@ -13,8 +13,9 @@ MAPS = ("map-pressure", "map-film")
 
 
 def critical_number(rows, places):
-    """Number of the position that decides: the largest index, else the thinnest film; None without results. places: those with
-    an index (:class:`tehl_taichi.report.place_verdict.JudgedPlace`)."""
+    """Number of the critical position: the largest index, else the thinnest film; None without results. places: those with an
+    index (:class:`tehl_taichi.report.place_verdict.JudgedPlace`).
+    """
     if places:
         return place_verdict.worst(places).number
     films = {n: film for n, (*_, summary) in enumerate(rows) if (film := dig(summary, "steady", "h_min_m")) is not None}
@@ -33,7 +34,7 @@ def critical(store, words):
 
 
 def scene(store, words):
-    """Sections of the surface and the scene; words: which position the whole scene is of."""
+    """Sections of the surface and the scene; words: text of the position whose scene is shown."""
     if not store:
         return ()
     one, source = store.scene, text(store.attrs, "scene_toml", "")
@@ -44,7 +45,7 @@ def scene(store, words):
 
 
 def limit(store):
-    """Sentences on what Fi = 1 stands for; () without an index."""
+    """Sentences about the meaning of Fi = 1; () without an index."""
     if not store or "fatigue" not in store.summary:
         return ()
     return (*limit_words(store.scene), *filter(None, [limit_meaning.sentence(store.summary, store.scene.fatigue)]))

@@ -1,4 +1,4 @@
-"""The answer on contacts along something: the place with the largest index, and those whose error bars overlap with it."""
+"""Answer for a sequence of contacts: the place with the largest index, and those whose error bars overlap with it."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,7 +16,9 @@ UNKNOWN_LATER = "Probably not: the index stays below 1, but over the whole passa
 
 @dataclass(frozen=True)
 class JudgedPlace:
-    """A place with an index. number: along the path; name, words: short and whole; searches: {surface: summary of a search}."""
+    """A place with an index. number: along the path; name, words: short and full text; searches: {surface: summary of a
+    search}.
+    """
 
     number: int
     name: str
@@ -25,12 +27,12 @@ class JudgedPlace:
 
     @property
     def early(self):
-        """Whether it is judged by the resolved part of its passage."""
+        """Whether the resolved part of the passage decides."""
         return deciding(self.searches)[1]
 
     @cached_property
     def layer(self):
-        """(where, Fi, its error or None) by which it is judged: the worst."""
+        """(where, Fi, its error or None) of the worst layer, which decides."""
         return worst_layer(self.searches)
 
     @property
@@ -47,12 +49,12 @@ class JudgedPlace:
 
     @property
     def where(self):
-        """Where in the body and along the path."""
+        """Text of the worst layer and the place."""
         return f"{self.layer[0]} at {self.words}"
 
     @cached_property
     def whole(self):
-        """(where, Fi, error) of the whole passage: the largest."""
+        """(where, Fi, error) of the largest index of the whole passage."""
         return max(all_layers(self.searches), key=lambda one: one[1])
 
     @property
@@ -61,8 +63,9 @@ class JudgedPlace:
 
 
 def judged_places(rows, name, words):
-    """A list of :class:`JudgedPlace` along the path. rows: (position, Hertz pressure, summary or None); name, words: functions
-    of a position."""
+    """List of :class:`JudgedPlace` along the path. rows: (position, Hertz pressure, summary or None); name, words: functions of
+    a position.
+    """
     return [JudgedPlace(n, name(at), words(at), by_surface(summary)) for n, (at, _, summary) in enumerate(rows)
             if (summary or {}).get("fatigue") and not why_none(summary["fatigue"])]
 
@@ -100,7 +103,7 @@ def _headline(places, top, group):
 
 
 def _among(group, places):
-    """'between A and C' of neighbours, 'at A and E' of others."""
+    """Text such as 'between A and C' for neighbours, 'at A and E' for others."""
     neighbours = [places.index(place) for place in group]
     if len(group) > 2 and neighbours == list(range(neighbours[0], neighbours[-1] + 1)):
         return f"between {group[0].name} and {group[-1].name}"
@@ -122,7 +125,7 @@ def _sentences(places, top, group, count):
 
 
 def _whole(places):
-    """The largest index where the grid does not resolve the pressure."""
+    """Sentence about the largest index of moments whose pressure the grid does not resolve."""
     if not (early := [place for place in places if place.early]):
         return ()
     top = max(early, key=lambda place: place.whole[1])
@@ -134,14 +137,14 @@ def _whole(places):
 
 
 def _smooth(places):
-    """(place, numbers of its smooth contact) that carries most, None where none is known."""
+    """(place, numbers of its smooth contact) with the largest index, None if none is known."""
     found = [(place, part) for place in places for one in place.searches.values()
              if (part := searched(one).get("contact_alone"))]
     return max(found, key=lambda one: one[1]["Fi_max"], default=None)
 
 
 def _alone(places):
-    """What the smooth contacts carry, in a sentence."""
+    """Sentence about the load limit of the smooth contacts."""
     if not (found := _smooth(places)):
         return ()
     place, alone = found
@@ -151,7 +154,7 @@ def _alone(places):
 
 
 def _load_too(verdict, places):
-    """(headline, tone), with the words that the load alone exceeds the limit, too."""
+    """(headline, tone), with a note if the load alone exceeds the limit."""
     (text, tone), found = verdict, _smooth(places)
     if tone != "yes" or not found or judged(found[1]["Fi_max"], error_of(found[1], "Fi_max")) != ABOVE:
         return text, tone

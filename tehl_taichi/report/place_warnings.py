@@ -1,4 +1,4 @@
-"""Warnings of contacts along something, each kind once with its places."""
+"""Warnings of a sequence of contacts, each kind once with its places."""
 
 from tehl_taichi.values.coded_warning import of_lists
 
@@ -6,10 +6,10 @@ MANY = 3  # places that are named one by one
 
 
 def of(rows, words, spelled=str):
-    """A list of sentences. rows: (position, Hertz pressure, summary or None) each; words(position): how a sentence calls it;
-    spelled(warning): its sentence.
+    """List of sentences. rows: (position, Hertz pressure, summary or None); words(position): its text; spelled(warning): its
+    sentence.
 
-    Warnings of one kind with other numbers are one sentence, that of the first place; the others follow as places.
+    Warnings of one kind with different numbers become one sentence: that of the first place, followed by the other places.
     """
     kinds: dict[str, dict[str, list[str]]] = {}
     count = sum(1 for *_, summary in rows if summary)
@@ -24,7 +24,7 @@ def _warnings(summary):
 
 
 def _sentence(found, count):
-    """found: {sentence: its places} of one kind; count: of all places."""
+    """One sentence of a kind of warning. found: {sentence: its places}; count: of all places."""
     (first, places), *rest = found.items()
     others = list(dict.fromkeys(place for more in (places for _, places in rest) for place in more if place not in places))
     if len(places) == count > MANY:

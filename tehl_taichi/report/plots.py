@@ -1,4 +1,4 @@
-"""Figures as plotly.js takes them: plain dictionaries of traces and layout. Colours of the page are added in the browser."""
+"""Figures for plotly.js: plain dictionaries of traces and layout. The browser adds the colours of the page."""
 
 from dataclasses import dataclass, field
 
@@ -9,7 +9,7 @@ PANEL, AROUND = 165, 110  # px: height of a panel of lines; of legend, title and
 
 @dataclass(frozen=True)
 class Figure:
-    """name: of it on the page; caption: a sentence or two; traces, layout: plotly's; height: px; more: what scripts read."""
+    """name: on the page; caption: a sentence or two; traces, layout: of plotly; height: px; more: data for scripts."""
 
     name: str
     caption: str
@@ -24,12 +24,12 @@ class Figure:
 
 
 def axis(title, **more):
-    """An axis with its title, which has the unit: plotly's own prefixes, as in 150µ, would be of nothing."""
+    """Axis with its title, which contains the unit; plotly's prefixes, as in 150µ, are off."""
     return {"title": {"text": title, "standoff": 6}, "exponentformat": "power", **more}
 
 
 def line(x, y, name, colour, panel=1, dash="solid", in_legend=True, **more):
-    """A line in one of the panels; in_legend: whether it stands in the legend."""
+    """Line in one of the panels; in_legend: it has an entry in the legend."""
     return {"type": "scatter", "mode": "lines", "x": x, "y": y, "name": name, "showlegend": in_legend, "legendgroup": name,
             "line": {"color": colour, "dash": dash, "width": 1.8}, **_in(panel), **more}
 
@@ -53,8 +53,11 @@ def _in(panel):
 
 
 def stacked(name, caption, x_title, panels, x=None, more=None, height=0):
-    """Panels of lines below each other over one x: panels of (title of y, traces with their panel's number, keys of its axis);
-    None without any; x: keys of the axis they share; height: px, if not that of its panels."""
+    """Panels of lines below each other over one x; None without panels.
+
+    panels: (title of y, traces with the number of their panel, keys of its axis); x: keys of the common axis; height: px, if
+    not the usual one.
+    """
     if not panels:
         return None
     traces = [trace for _, found, _ in panels for trace in found]
@@ -70,20 +73,20 @@ def stacked(name, caption, x_title, panels, x=None, more=None, height=0):
 
 
 def _frame(legend=True):
-    """Room around a plot, and the legend above it."""
+    """Margins around a plot, and the legend above it."""
     return {"margin": {"l": 10, "r": 14, "t": 40 if legend else 8, "b": 10}, "hovermode": "closest",
             "legend": {"orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom"}}
 
 
 def colours(scale):
-    """The colours of a map by its name in the palette; plotly.js does not know all maps."""
+    """Colours of a map by its name in the palette; plotly.js does not know all maps."""
     from plotly.colors import get_colorscale
 
     return get_colorscale(scale)
 
 
 def field_map(name, caption, x, y, values, scale, unit, x_title, y_title, marked=(), true=True, height=330, **keys):
-    """A field (x, y) in colours; marked: traces on it; true: one length along both axes; keys: of plotly's heatmap."""
+    """Map of a field (x, y); marked: traces on it; true: equal scales along both axes; keys: of plotly's heatmap."""
     heat = {"type": "heatmap", "x": x, "y": y, "z": values.T, "colorscale": colours(scale), "zsmooth": "best",
             "colorbar": {"title": {"text": unit, "side": "top"}, "orientation": "h", "thickness": 12, "y": -0.22,
                          "yanchor": "top", "lenmode": "fraction", "len": 0.9, "exponentformat": "power"}, **keys}
@@ -95,14 +98,15 @@ def field_map(name, caption, x, y, values, scale, unit, x_title, y_title, marked
 
 
 def level(x, y, values, at):
-    """The line values (x, y) = at on a map: white with a black rim, seen on every colour. Not in the legend: the page is
-    white, too."""
+    """Line values (x, y) = at on a map: white with a black rim, visible on every colour. Without a legend entry, because the
+    page is white, too.
+    """
     common = {"type": "contour", "x": x, "y": y, "z": values.T, "showscale": False, "showlegend": False, "hoverinfo": "skip",
               "contours": {"start": at, "end": at, "size": 1, "coloring": "none"}}
     return [{**common, "line": {"color": hue, "width": width}} for hue, width in ((RIM, 4.0), (LIMIT, 1.6))]
 
 
 def colour(n):
-    """The n-th colour of lines that is seen on light and on dark pages: black is left to neither."""
+    """The n-th line colour visible on light and dark pages (not black)."""
     seen = [one for one in LINES if one != BLACK]
     return seen[n % len(seen)]

@@ -1,4 +1,4 @@
-"""Pages of the single positions of a flank or a cam: they are written beside their stores, and linked from its page."""
+"""Pages of the positions of a flank or a cam: written beside their stores, and linked from its page."""
 
 import os
 from urllib.parse import quote
@@ -8,7 +8,7 @@ from tehl_taichi.report.document import links
 
 
 def write(found, force, written):
-    """Write the page of every finished position that has none (force: of all); written(store, path) writes one."""
+    """Write the page of every finished position without one (force: of all); written(store, path) writes one."""
     for _, store, path in _pages(found):
         if store.finished and (force or not path.exists()):
             user_files.check(path, force, "html", of=found.folder)
@@ -16,7 +16,7 @@ def write(found, force, written):
 
 
 def line(found, out, words):
-    """The links to the pages that exist; out: file of the page with the links, None: no links; words(position): their text."""
+    """Links to existing pages; out: file of the page with the links, None: no links; words(position): link text."""
     if out is None:
         return None
     rows = [(words(at), _relative(path, out)) for at, _, path in _pages(found) if path.exists()]
@@ -24,7 +24,7 @@ def line(found, out, words):
 
 
 def _pages(found):
-    """[(position, its store, where its page lies)]."""
+    """[(position, its store, path of its page)]."""
     stores = [(at, found.store_of(n)) for n, (at, *_) in enumerate(found.rows)]
     return [(at, store, store.path.with_suffix(".html")) for at, store in stores if store]
 

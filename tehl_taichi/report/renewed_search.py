@@ -1,4 +1,4 @@
-"""The page of a run whose fatigue is searched again, with other constants or moments."""
+"""Page of a run with a new fatigue search, with other constants or moments."""
 
 import dataclasses
 
@@ -17,8 +17,9 @@ from tehl_taichi.scene.timeline import total_steps
 
 
 class RenewedSearch:
-    """Another question to the run in `folder`: its scene with these constants of fatigue (None: as they are), see
-    :func:`tehl_taichi.fatigue`. Raises StoreError of a study or a flank, SceneError."""
+    """A new fatigue search of the run in `folder` with these constants (None: those of the run), see
+    :func:`tehl_taichi.fatigue`. Raises StoreError for a study or a flank, SceneError.
+    """
 
     def __init__(self, folder, constants):
         if (found := kind(folder)) != RUN:
@@ -30,7 +31,7 @@ class RenewedSearch:
 
     @property
     def differs(self):
-        """[(constant, its value in this search, in the run)], in words."""
+        """[(constant, its text in this search, in the run)] of the constants that differ."""
         pairs = zip(_words(self.scene), _words(self.run.scene))
         return [(what, new, stored) for (what, new), (_, stored) in pairs if new != stored]
 
@@ -40,7 +41,7 @@ class RenewedSearch:
         return not self.differs and "fatigue" in self.run.summary
 
     def page(self, progress=None, threads=None):
-        """Search, and the :class:`tehl_taichi.report.document.Page` of what was found. Raises SceneError."""
+        """Search, and make the :class:`tehl_taichi.report.document.Page` of the result. Raises SceneError."""
         found = self.run.fatigue(**self.constants, progress=progress, threads=threads)
         page = run_page.page(SearchedStore(self.run.store, self.scene, found.summaries), found)
         answer = dataclasses.replace(page.answer, question=self._question(), doubts=(*self._doubts(), *page.answer.doubts))
@@ -52,7 +53,7 @@ class RenewedSearch:
         return f"{FATIGUE.removesuffix('?')}, with {changes}?" if changes else FATIGUE
 
     def _doubts(self):
-        """Constants of the run itself, and how much of it is stored."""
+        """Sentences about constants of the run, and about an unfinished run."""
         own, store = ", ".join(f"{what} {value}" for what, _, value in self.differs), self.run.store
         if own:
             yield f"The run was stored with other constants: {own}."
@@ -62,7 +63,7 @@ class RenewedSearch:
 
 
 class SearchedStore:
-    """The store of a run with the scene and the summary of another search in place of its own; nothing is written."""
+    """Store of a run with scene and summary of another search in place of its own; nothing is written."""
 
     def __init__(self, store, scene, searches):
         self.store, self.scene = store, scene
@@ -80,7 +81,7 @@ class SearchedStore:
 
 
 def _source(fatigue, run, constants):
-    """Source of the constants: the source of the run does not hold for other constants."""
+    """Source of the constants; that of the run does not hold for other constants."""
     own = run.scene.fatigue
     if constants.get("source") is not None or (fatigue.kappa, fatigue.endurance) == (own.kappa, own.endurance):
         return fatigue.source
@@ -88,7 +89,7 @@ def _source(fatigue, run, constants):
 
 
 def _words(scene):
-    """[(what, value)] of all that the answer depends on, the same in number and order for every scene."""
+    """[(label, text)] of all settings that affect the answer, equal in number and order for every scene."""
     f = scene.fatigue
     return [("κ =", f"{f.kappa:.5g}"), ("σ_eF =", value_text(f.endurance, unit="Pa", digits=5)), ("the criterion", f.criterion),
             *((f"the strength of body {name}", scene_tables.strength_words(f, name)) for name in "ab"),

@@ -9,7 +9,7 @@ ALONG, DEPTH = "x′ (µm)", "depth (µm)"
 
 
 def section(store):
-    """(:class:`Section`,), or () of a run in which no steel flowed."""
+    """(:class:`Section`,), or () if no steel yielded."""
     if not store.summary.get("run_in", {}).get("plastic_strain_max"):
         return ()
     state = store.run_in
@@ -18,7 +18,7 @@ def section(store):
 
 
 def _heights(found):
-    """Heights along the middle, before and after."""
+    """Figure of heights along the middle, before and after."""
     lines = [line(found.x * 1e6, found.before * 1e6, "before", GREY, dash="dash"),
              line(found.x * 1e6, found.after * 1e6, "after run-in", colour(0))]
     return stacked("run-in-height", f"Heights of body {found.body} along the middle, before and after run-in.", ALONG,
@@ -26,7 +26,7 @@ def _heights(found):
 
 
 def _passages(records):
-    """Change of the surface by each passage; the one that is judged is grey."""
+    """Figure of the surface change by each passage; the assessed one is grey."""
     numbers = [one["passage"] for one in records]
     bars = {"type": "bar", "x": numbers, "y": [one["surface_change_m"] * 1e9 for one in records], "width": 0.6,
             "showlegend": False, "marker": {"color": [GREY if one["judged"] else colour(0) for one in records]}}

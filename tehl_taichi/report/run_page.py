@@ -1,4 +1,4 @@
-"""The page of one run, finished or not."""
+"""Page of one run, finished or not."""
 
 import dataclasses
 
@@ -34,7 +34,7 @@ def of(folder):
 
 
 def page(store, result=None):
-    """The page of a :class:`tehl_taichi.store.reader.Reader`; result: the SearchResult, by default that of the store."""
+    """Page of a :class:`tehl_taichi.store.reader.Reader`; result: the SearchResult, by default that of the store."""
     about = f"{store.scene.name}: a run of tehl_taichi {text(store.attrs, 'version')}"
     sections = (scene_section(store.scene, text(store.attrs, "scene_toml", "")),
                 *surface_plots.section(store.scene, store.summary), *run_in_plots.section(store), *_film(store),
@@ -44,7 +44,7 @@ def page(store, result=None):
 
 
 def scene_section(scene, source):
-    """A scene in words and numbers, and all of its values."""
+    """Section about a scene: sentences, main numbers, and all values."""
     left_out = [without_options(one) for one in scene.left_out(cut=False)]
     whole = PageBlock("source", {"title": "every value, as a scene file", "text": source}) if source else None
     return Section("Scene", (PageBlock("text", {"sentences": scene_text.words(scene)}), facts(scene_text.numbers(scene)),
@@ -52,7 +52,7 @@ def scene_section(scene, source):
 
 
 def _film(store):
-    """Pressure, film and temperatures."""
+    """Section about pressure, film and temperatures."""
     line, histories = passage_plots.centreline(store), passage_plots.histories(store)
     moved, maps = line.more.get("slides"), tuple(drawn(*row) for row in map_plots.rows(store))
     if not moved:
@@ -65,7 +65,7 @@ def _film(store):
 
 
 def _fatigue(store, result):
-    """The index and the worst points, those on which the answer rests first."""
+    """Sections about the index and the worst points, those that decide first."""
     if "fatigue" not in store.summary:
         return ()
     found = searches(store, result)
@@ -74,8 +74,9 @@ def _fatigue(store, result):
 
 
 def _of_search(store, search, of, lead, front):
-    """Three sections; of: said in their headings; lead: begins the words on its moments, where there are two searches; front:
-    whether the answer rests on it."""
+    """Three sections of a search; of: text in their headings; lead: start of the text about its moments, if there are two
+    searches; front: it decides the verdict.
+    """
     shown = drawn(*fatigue_plots.distribution(search), *fatigue_plots.index(search), *fatigue_plots.depth(search))
     behind = NO_MAPS if shown is None else DARK if search.on else ""
     words, numbers = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short), search.result.numbers
@@ -91,7 +92,7 @@ def _sentence(words):
 
 
 def _made(store):
-    """Section about errors and origin of the numbers."""
+    """Section about errors, and origin of the numbers."""
     return (Section("Numbers and their errors", tuple(run_tables.errors(store.summary))),
             Section("Numerics", (run_tables.numerics(store), drawn(passage_plots.residual_plot(store)))),
             Section("Provenance", (run_tables.provenance(store),)))

@@ -1,4 +1,4 @@
-"""Tables of a run: numbers with their errors, the worst points, how it was computed, where it comes from."""
+"""Tables of a run: numbers with their errors, worst points, numerics, provenance."""
 
 import json
 
@@ -18,7 +18,7 @@ RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def errors(summary):
-    """Tables of the numbers that have an error or a reason why it is not known; behind them the long reasons, once each."""
+    """Tables of the numbers with an error or a reason why it is unknown, followed by the long reasons, once each."""
     head: tuple = ("what", "value", "error", "relative")
     reasons: list[str] = []
     tables = [table(head, [row for found in _in_order(summary.get(part, {})) for row in _with_below(reasons, *found)], when)
@@ -27,14 +27,14 @@ def errors(summary):
 
 
 def _in_order(values):
-    """[(numbers, text after their names)]; the resolved part, which decides the verdict, stands first."""
+    """[(numbers, text after their names)]; the resolved part, which decides the verdict, is first."""
     if "resolved" not in values:
         return [(values, "")]
     return [(values["resolved"], f", {resolved(values['resolved'])}"), (values, ", whole passage")]
 
 
 def _with_below(reasons, found, more):
-    """Rows of the surface (or of what has none) and of what lies below it; more: behind what each is."""
+    """Rows of a part and of the layers below the surface in it; more: text after each label."""
     for says, *rest in (*_with_errors(found, reasons), *_of_below(found.get("below", {}), reasons)):
         yield says + more, *rest
 
@@ -46,7 +46,7 @@ def _of_below(deep, reasons):
 
 
 def _with_errors(values, reasons):
-    """Rows; reasons: the long ones so far, to which those of these rows are added."""
+    """Rows of numbers with errors; reasons: list of long reasons, extended by those of these rows."""
     for name, error in values.get("error", {}).items():
         if values.get(name) is None:
             continue
@@ -59,7 +59,7 @@ def _with_errors(values, reasons):
 
 
 def _in_row(why, reasons):
-    """A reason as its row has it: a long one in brief, with the mark of its note behind the tables."""
+    """Text of a reason in its row: a long one is shortened, with the mark of its note below the tables."""
     if len(why) <= SHORT:
         return why
     if why not in reasons:
@@ -68,7 +68,7 @@ def _in_row(why, reasons):
 
 
 def _mark(n):
-    """The n-th mark of a note, from 0."""
+    """Mark of the n-th note, from 0."""
     return str(n + 1).translate(RAISED)
 
 
@@ -85,46 +85,46 @@ POINT = (("index Fi", "Fi_max", "1"), ("stress of the criterion", "findley_stres
 
 
 def worst_points(fatigue, scene):
-    """The worst point of the surface beside the one below it."""
+    """Table of the worst points at and below the surface."""
     points = [("surface", {"depth_m": 0.0, **fatigue}), *([("below it", fatigue["below"])] if "below" in fatigue else [])]
     rows = [(text.format(passing(scene)), *(_of_point(point, key, unit) for _, point in points)) for text, key, unit in POINT]
     return table(("critical point", *(where for where, _ in points)), rows + _in_file(scene, [point for _, point in points]))
 
 
 def _in_file(scene, points):
-    """[(what, where each point lies in the file of the scan)]; none of a scene whose positions are not those of a scan."""
+    """[(label, position of each point in the file of the scan)]; [] if positions are not those of a scan."""
     if passing(scene) != "scan":
         return []
     return [("nearest point in the file of the scan", *(in_file(scene, p["x_m"], p["y_m"]) for p in points))]
 
 
 def in_file(scene, x, y):
-    """Row and column, as text, of the point of a scan nearest to x, y (m, as in maps of the index)."""
+    """Text of row and column of the point of a scan nearest to x, y (m, as in maps of the index)."""
     first = scene.features[0]
     return first.position_in_file(x - first.x, y - first.y)
 
 
 def _of_point(point, key, unit):
-    """A number of a point, '' where it has none; the index as everywhere on the page."""
+    """Text of a number of a point, '' without one; the index as everywhere on the page."""
     if key == "Fi_max":
         return index(point[key], point.get("error", {}).get(key))
     return value_text(point[key], unit=unit) if key in point else ""
 
 
 def tension(fatigue):
-    """Rows of the whole surface beside the critical point; None where it was not kept."""
+    """Rows of the whole surface besides the critical point; None if they are not stored."""
     most = fatigue.get("sigma1_max_Pa")
     return facts([("largest principal stress at the surface", value_text(most, unit="Pa"))] if most is not None else [])
 
 
 def solid_contact(summary):
-    """The share of the load that the film did not carry; None without a finished passage."""
+    """Rows of the load share of solid contact; None without a finished passage."""
     passage = summary.get("transient")
     return facts([("load carried by solid contact", contact_share(passage))] if passage else [])
 
 
 def numerics(store):
-    """Grid, tolerances, what was left over and what it took."""
+    """Rows of grid, tolerances, residuals and work."""
     summary, scene = store.summary, store.scene
     steps = store.scalar("dt_s")[1:]
     across = "" if scene.isothermal else f" × {scene.thermal.nodes} across the film"
@@ -150,7 +150,7 @@ FROM = ("command", "date", "version", "commit", "python", "numpy", "pyfftw", "za
 
 
 def provenance(store):
-    """Provenance: attributes of the store, and the runtime of this process."""
+    """Rows of provenance: attributes of the store, and the runtime of its process."""
     runtime = integrity.optional(store.attrs, "runtime", {})
     rows = [(key, str(store.attrs[key])) for key in FROM if key in store.attrs]
     return facts([("store", store.path.name), *rows, *((key, _word(runtime[key])) for key in ("taichi", "arch", "threads")

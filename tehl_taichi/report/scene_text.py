@@ -1,4 +1,4 @@
-"""A scene in words and in numbers."""
+"""Sentences and numbers about a scene."""
 
 import math
 import os
@@ -18,13 +18,13 @@ LONG = 60  # letters of a word that is shown
 
 
 def words(scene):
-    """Sentences: note, contact, motion, oil, heat, features."""
+    """Sentences about a scene: note, contact, motion, oil, heat, features."""
     note = [f"Note: {scene.note}"] if scene.note else []
     return [*note, _contact(scene), _motion(scene), _oil(scene), _heat(scene), *_features(scene)]
 
 
 def shared_words(scene):
-    """Sentences on what contacts along something have in common: note, bodies, oil, heat, features."""
+    """Sentences about the common scene of a sequence of contacts: note, bodies, oil, heat, features."""
     return [*([f"Note: {scene.note}"] if scene.note else []), _bodies(scene), _oil(scene), _heat(scene), *_features(scene)]
 
 
@@ -37,7 +37,7 @@ def _contact(scene):
 
 
 def _half_axes(s):
-    """Half-axes of the dry contact: along x, and across where it ends there."""
+    """Text of the half-axes of the dry contact: along x, and along y for point contacts."""
     if s.line:
         return f"half-width {value_text(s.a, unit='m')}"
     return f"half-axes {value_text(s.a, unit='m')} along x and {value_text(s.b, unit='m')} across"
@@ -83,7 +83,7 @@ def _features(scene):
 
 
 def _sizes(f):
-    """Sizes of a feature that its shape uses, as text."""
+    """Keys of the sizes of a feature that its shape uses."""
     own = kinds(type(f))
     alone = kinds(f.kind.keys) if f.kind.keys else {}
     keys = [key for key in own if key in f.kind.uses or key in alone] + ["x", "y"]
@@ -100,20 +100,20 @@ def _sizes(f):
 
 
 def moments(scene):
-    """'feature up to 0.5 a': the moments of a passage that count, '' where all do."""
+    """Text such as 'feature up to 0.5 a': moments of a passage that count, '' if all do."""
     f = scene.fatigue
     ends = between(f.from_x, f.to_x)
     return f"{where(scene)} {ends}" if ends else ""
 
 
 def when(scene):
-    """Moments of a search as text."""
+    """Text of the moments of a search."""
     counted = moments(scene)
     return f"over all moments that count ({counted})" if counted else WHOLE
 
 
 def material(fatigue):
-    """Source of kappa and the fatigue limit: example values are marked as such."""
+    """Text of the source of kappa and the fatigue limit; example values are marked."""
     if tables := scene_tables.words(fatigue):
         return tables
     default, own_source = type(fatigue)(), fatigue.source.strip().rstrip(".")
@@ -126,7 +126,7 @@ def material(fatigue):
 
 
 def numbers(scene):
-    """(what, value) of what a reader compares first."""
+    """(label, value) of the numbers that readers compare first."""
     s = Scales.of(scene)
     rows = [("Hertz pressure p_H", value_text(s.p_H, unit="Pa")), ("half-width a", value_text(s.a, unit="m")),
             *([] if s.line else [("half-axis b, across", value_text(s.b, unit="m"))]), ("load", _load(scene)),
@@ -137,27 +137,27 @@ def numbers(scene):
 
 
 def oil_numbers(scene):
-    """(what, value) of the oil at the inlet, and of its law."""
+    """(label, value) of the oil at the inlet, and of its law."""
     oil = scene.oil
     return [("inlet temperature", f"{scene.operation.temperature:g} °C"), ("viscosity at the inlet (p = 0)", _inlet(scene)),
             *_of_sheet(oil), ("viscosity law", oil.viscosity), *_of_oil(oil)]
 
 
 def grid_numbers(scene):
-    """(what, value) of the grid."""
+    """(label, value) of the grid."""
     g, heat = scene.grid, "" if scene.isothermal else f" × {scene.thermal.nodes} nodes across the film"
     across = "" if scene.one_dimensional else f" × {g.ny}"
     return [("grid", f"{g.nx}{across} cells{heat}"), ("domain along x", f"{g.x_min:.3g} to {g.x_max:.3g} a")]
 
 
 def _inlet(scene):
-    """Oil at the inlet."""
+    """Text of the viscosity at the inlet."""
     eta = math.exp(float(viscosity.ln_eta(scene.oil, 0.0, scene.operation.temperature)))
     return f"{eta * 1e3:.4g} mPa s"
 
 
 def _of_sheet(oil):
-    """The data sheet that the numbers of the law follow from, in its units; nothing of an oil without one."""
+    """Rows of the data sheet behind the law's numbers, in its units; none without a sheet."""
     if not data_sheet.is_given(vars(oil)):
         return []
     rows = [(f"data sheet: kinematic viscosity at {at} °C", f"{nu * 1e6:.4g} mm²/s") for at, nu in
@@ -167,7 +167,7 @@ def _of_sheet(oil):
 
 
 def _alpha(oil):
-    """Pressure coefficient of the data sheet, or its estimate."""
+    """Row of the pressure coefficient of the data sheet, or its estimate."""
     if not data_sheet.estimated(oil):
         return "data sheet: α at 40 °C", f"{oil.alpha_40 * 1e9:.4g} 1/GPa"
     alpha = data_sheet.alpha_40(oil.nu_40, oil.rho0, oil.Dz)
@@ -176,7 +176,7 @@ def _alpha(oil):
 
 
 def _of_oil(oil):
-    """The numbers of its viscosity law, with their meaning."""
+    """Rows of the numbers of the viscosity law, with their meaning."""
     declared = {key: one.metadata["kind"] for key, one in viscosity.LAWS[oil.viscosity].numbers.items()}
     return [(f"{key}: {kind.about}", f"{getattr(oil, key):.6g} {kind.unit}".rstrip(" -"))
             for key, kind in declared.items() if isinstance(kind, Number)]

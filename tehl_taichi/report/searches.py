@@ -1,4 +1,4 @@
-"""The fatigue searches that a page shows: of the part of the passage on which the answer rests, and of the whole."""
+"""Fatigue searches shown on a page: of the resolved part of the passage, which decides, and of the whole."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,8 +15,9 @@ from tehl_taichi.view.figures.index_text import PART, resolved
 
 @dataclass(frozen=True)
 class Search:
-    """when: its moments, in words; on: begins names of its figures; short: the moments in few words, "" where there is one
-    search only."""
+    """when: text of its moments; on: start of the names of its figures; short: short text of the moments, "" if there is only
+    one search.
+    """
 
     scene: Scene
     result: SearchResult
@@ -31,13 +32,14 @@ class Search:
 
     @cached_property
     def places(self):
-        """Its worst places, see :func:`tehl_taichi.report.numbered_points.places`: in two maps and a table."""
+        """Its worst places, see :func:`tehl_taichi.report.numbered_points.places`; used in two maps and a table."""
         return numbered_points.places(self)
 
 
 def searches(store, result=None):
-    """One :class:`Search`, or two: where the grid does not resolve every pressure first that of the part before, on which the
-    answer rests. result: of the search, by default that of the store."""
+    """[:class:`Search`] of the whole passage; if the grid does not resolve every pressure, that of the resolved part before it.
+    result: of the search, by default that of the store.
+    """
     scene, result = store.scene, result or SearchResult.from_arrays(by_surface(store.summary), store.map)
     body = f", body {result.numbers['surface']}, the worse one" if result.other else ""
     over = when(scene) + body + ", pressure alone" * bool(why_none(result.summary))

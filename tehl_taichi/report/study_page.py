@@ -1,4 +1,4 @@
-"""The page of a study: its results over the swept keys, the table, what failed."""
+"""Page of a study: its results over the swept keys, the table, failed cases."""
 
 from dataclasses import replace
 
@@ -31,7 +31,7 @@ def of(folder):
 
 
 def _scene(study):
-    """The scene that all cases share, with what they change."""
+    """Section about the common scene of all cases, with the changed keys."""
     found = scene_section(study.plan.scene, "")
     return replace(found, parts=(sentences(list(_swept(study)), "The cases change"), *found.parts))
 
@@ -69,7 +69,7 @@ def _answer(study):
 
 
 def _limits(study):
-    """What Fi = 1 stands for, where it is the same in all cases."""
+    """Sentences about the meaning of Fi = 1, if it is equal in all cases."""
     swept = [key for key in study.plan.keys if full_name(key).startswith("fatigue.")]
     if swept:
         return (f"The fatigue limit, or what belongs to it, differs between the cases: {', '.join(swept)}.",)
@@ -77,7 +77,7 @@ def _limits(study):
 
 
 def _ranges(study):
-    """A sentence on each usual result: its smallest and its largest value, and where they are."""
+    """Sentence about the range of each usual result, with the cases of the smallest and the largest value."""
     for name in study_figures.usual(study):
         values, errors, label = study_figures.with_errors(study, name)
         if np.isfinite(values).any():
@@ -88,7 +88,7 @@ def _ranges(study):
 
 
 def _cell(values, errors, n):
-    """A value with its error, four digits without; what is only rounding beside the largest is 0."""
+    """Text of a value with its error, four digits without; rounding errors relative to the largest value are 0."""
     if abs(values[n]) <= ROUNDING * np.nanmax(np.abs(values)):
         return "0"
     return with_error(values[n], errors[n])

@@ -1,4 +1,4 @@
-"""Results of a study over what was swept."""
+"""Figures of a study's results over its swept keys."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ LONGEST = 30  # letters of the title of an upright axis
 
 
 def figures(study):
-    """Figures of each usual result: lines over one key and a map over two, or points where the cases lie anywhere."""
+    """Figures of each usual result: lines over one key and a map over two, or points if the cases form no grid."""
     out = []
     for name in usual(study):
         if study.plan.gridded and len(study.plan.dims) <= 2:
@@ -23,13 +23,13 @@ def figures(study):
 
 
 def column(study, name):
-    """(values in a unit that people read, label) of a column of the table."""
+    """(values in a printed unit, label) of a column of the table."""
     values, _, label = with_errors(study, name)
     return values, label
 
 
 def _lines(study, name):
-    """Over one key, a line for each value of the other (some of many)."""
+    """Figure over one key, a line for each value of the other key (some if there are many)."""
     values, errors, label = with_errors(study, name)
     first = curve_keys(study)[0]
     x, x_label, words = along(study, first)
@@ -42,12 +42,12 @@ def _lines(study, name):
 
 
 def _title(label):
-    """Title of an upright axis: of a label that is longer than a figure on paper is high the unit; the caption has both."""
+    """Title of a vertical axis: only the unit if the label is too long; the caption has both."""
     return label if len(label) <= LONGEST or not parted(label)[1] else parted(label)[1]
 
 
 def _bars(errors):
-    """Error bars of a trace; nothing where none is known."""
+    """Error bars of a trace; {} if none is known."""
     if not np.isfinite(errors).any():
         return {}
     return {"error_y": {"type": "data", "array": [None if np.isnan(one) else one for one in errors.tolist()], "thickness": 1}}
@@ -62,7 +62,7 @@ def _seconds(study, label):
 
 
 def _map(study, name):
-    """Over two keys, a cell a case."""
+    """Map over two keys, one cell per case."""
     values, label = column(study, name)
     (x, x_label, x_words), (y, y_label, y_words) = (along(study, key) for key in study.plan.keys)
     places = np.arange(len(x), dtype=float), np.arange(len(y), dtype=float)
@@ -74,7 +74,7 @@ def _map(study, name):
 
 
 def _points(study, name, key):
-    """All cases against one key."""
+    """Figure of all cases over one key."""
     values, errors, label = with_errors(study, name)
     x, x_label, words = along(study, key, per_case=True)
     dots = marks(x, values, label, colour(0), symbol="circle", showlegend=False, **_bars(errors))
@@ -84,6 +84,6 @@ def _points(study, name, key):
 
 
 def _ticks(x, words, numbers):
-    """An axis of words has them as its ticks."""
+    """Ticks of an axis of words."""
     places = dict(zip(np.asarray(x).tolist(), words))
     return {} if numbers else {"tickvals": list(places), "ticktext": list(places.values())}

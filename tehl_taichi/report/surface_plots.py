@@ -1,4 +1,4 @@
-"""The surface that passes through the contact: its heights, and of a measured map what was read and what was made of it."""
+"""Passing surface: its heights; for a measured map also the file and its processing."""
 
 import math
 import os
@@ -28,7 +28,7 @@ ROUGHNESS = (("mean height (Sa, Ra)", ("Sa_m", "Ra_m"), "m"), ("rms height (Sq, 
 
 
 def section(scene, summary):
-    """(:class:`Section`,), or () where nothing passes."""
+    """(:class:`Section`,), or () without a passage."""
     if not scene.transient:
         return ()
     maps = [f for f in scene.features if f.kind.measured]
@@ -37,7 +37,7 @@ def section(scene, summary):
 
 
 def roughness(scene, summary):
-    """(table of the roughness of each surface and of both together, film over it) where surfaces are rough."""
+    """(table of the roughness of each surface and of both, film over it) for rough surfaces."""
     columns = {}
     for name, numbers in surface_roughness.to_dict(scene).items():
         columns["both together" if name == "combined" else f"surface {name}"] = numbers
@@ -58,7 +58,7 @@ def _rough_value(numbers, keys, unit):
 
 
 def picture(scene):
-    """Heights of all features together, over x, y or over x alone."""
+    """Figure of the heights of all features together, over x, y or over x alone."""
     found = heights(scene)
     i, j = (thinned(at.size, MOST) for at in (found.x, found.y))
     x, y, values = found.x[i] * 1e6, found.y[j] * 1e6, found.values[i][:, j] * 1e6
@@ -73,7 +73,7 @@ def picture(scene):
 
 
 def _holes(found, i, j):
-    """A trace that covers what was not measured; what is not kept counts to the kept point before it."""
+    """Trace that covers unmeasured points; a point that is left out counts for the kept point before it."""
     if not found.filled.any():
         return []
     holes = np.logical_or.reduceat(np.logical_or.reduceat(found.filled, i, axis=0), j, axis=1)
@@ -82,22 +82,23 @@ def _holes(found, i, j):
 
 
 def _stepped(values):
-    """Heights in steps of less than a thousandth of their range, a power of two: a screen has fewer colours, and roughness in
-    all digits would be a megabyte of the page."""
+    """Heights rounded to less than a thousandth of their range (a power of two), because all digits of a roughness would be a
+    megabyte of the page.
+    """
     size = float(np.ptp(values))
     step = 2.0 ** math.floor(math.log2(size / STEPS)) if size > 0 else 1.0
     return np.round(values / step) * step
 
 
 def _kept(found, i, j):
-    """Which of its points are drawn, in words."""
+    """Text of the points that are drawn."""
     if (i.size, j.size) == found.values.shape:
         return ""
     return f" {i.size} × {j.size} of {found.x.size} × {found.y.size} points are kept in this page."
 
 
 def measured(f, scene):
-    """(what, value) of a map: of its file, and of the heights that pass."""
+    """(label, value) of a map: of its file, and of the passing heights."""
     m, sides = f.measures, [size for size, count in zip(f.patch, f.points) if count > 1]
     turned = f", times {f.scale:g}" if f.scale != 1 else ""
     rim = f", fading out over {value_text(f.taper, unit='m')} at its rim" if f.taper else ""
@@ -114,7 +115,7 @@ def measured(f, scene):
 
 
 def _missing(f):
-    """Points that were not measured: of the part that is used, and of the file where that is more."""
+    """Text of the unmeasured points of the used part, and of the file if that has more."""
     used, spikes = int(f.holes.sum()), int(f.spikes.sum())
     all_ = int((~np.isfinite(f.heights)).sum())
     return f"{used}, filled in" + f", {spikes} of them spikes" * bool(spikes) + f" ({all_} in the whole file)" * (used < all_)

@@ -1,4 +1,4 @@
-"""The answer of a run, in a sentence, and what it rests on."""
+"""Answer of a run in one sentence, and its reasons."""
 
 from types import MappingProxyType
 
@@ -38,7 +38,7 @@ def of(store):
 
 
 def _life(summary):
-    """Passages to initiation, where an exponent is given."""
+    """Sentence about passages to initiation, if an exponent is given."""
     if "life" not in summary:
         return ()
     found = summary["life"]
@@ -52,7 +52,7 @@ def _read_first(warnings):
 
 
 def _spread(searches):
-    """Sentences on rough surfaces: the share above the limit, and the largest index with the number of points that it is of."""
+    """Sentences about rough surfaces: share above the limit, and the largest index with the number of searched points."""
     out = []
     for name, found in ((name, searched(one)) for name, one in searches.items()):
         if found.get("rough"):
@@ -64,9 +64,11 @@ def _spread(searches):
 
 
 def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
-    """(question, headline, tone, sentences) of the summary of the search of the worse body, and of those of the other in
-    `beside` {surface: summary}; scene: of the run: its moments, what passes; None: unknown, all moments of a
-    feature."""
+    """(question, headline, tone, sentences) for the summary of the worse body's search and, in `beside` {surface: summary}, the
+    other's.
+
+    scene: of the run, for its moments and its passing feature; None: unknown, all moments of a feature.
+    """
     searches = {fatigue.get("surface"): fatigue, **beside}
     if why := why_none(fatigue):
         return FATIGUE, f"No verdict: {why}.", "open", _from_pressure(searches)
@@ -83,13 +85,13 @@ def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
 
 
 def _from_pressure(searches):
-    """Sentences on the index of the pressure alone."""
+    """Sentences about the index of the pressure alone."""
     sentences = (_index_sentence(*layer) for layer in _judged_layers(searches))
     return ("From the pressure alone, without surface shear and frictional heat:", *sentences)
 
 
 def _judged(searches):
-    """(the worst of what is judged, where, whether the errors behind it are known, sentences)."""
+    """(worst index, text of its places, whether its errors are known, sentences)."""
     found = _judged_layers(searches)
     worst = max(state for *_, state in found)
     places = _listed([where for where, _, _, state in found if state == worst])
@@ -98,7 +100,7 @@ def _judged(searches):
 
 
 def _listed(words):
-    """'A, B and C'."""
+    """Text such as 'A, B and C'."""
     return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
@@ -108,9 +110,12 @@ def _judged_layers(searches):
 
 
 def _by_what_is_known(parts, whole, sentences, over, whose):
-    """(headline and tone, sentences) where the grid does not resolve every pressure: by the part of the passage before that, to
-    which the rest can only add. parts: {surface: summary of that}; whole: the worst of what is judged of the whole search, over
-    these moments; whose: position ends that part, in words."""
+    """(headline and tone, sentences) if the grid does not resolve every pressure: by the resolved part of the passage, whose
+    index is a lower limit.
+
+    parts: {surface: summary of that part}; whole: worst index of the whole search over these moments; whose: text of the
+    position at its end.
+    """
     worst, places, known, early = _judged(parts)
     end = f"{whose} up to {_place(next(iter(parts.values()))['to_x_a'])}"
     sentences = [f"While the grid resolves the pressure ({end}; the rest can only add):", *early,
@@ -125,7 +130,7 @@ def _by_what_is_known(parts, whole, sentences, over, whose):
 
 
 def _place(x):
-    """A position of the feature (a) for readers who do not know the frame."""
+    """Text of a position of the feature (a), for readers who do not know the frame."""
     if round(x, 2) == 0:
         return "the middle of the contact"
     side = "before" if x < 0 else "behind"
@@ -138,7 +143,7 @@ def _index_sentence(where, Fi, error, state):
 
 
 def headline(worst, places, known, when=""):
-    """(headline, tone); known: whether the error of the numbers behind it is; when: a part of the passage, in words."""
+    """(headline, tone); known: the errors are known; when: text of a part of the passage."""
     if worst == WITHIN:
         return f"Not decided: the index is 1 within its error {places}{when}.", "open"
     yes, no, more = ("Yes", "No", "") if known else ("Probably yes", "Probably not", "; the error of this is unknown")
@@ -148,7 +153,7 @@ def headline(worst, places, known, when=""):
 
 
 def _load_too(verdict, searches):
-    """(headline, tone), with the words that the load alone exceeds the limit, too."""
+    """(headline, tone), with a note if the load alone exceeds the limit."""
     (text, tone), alone = verdict, _worst_alone(searches)
     if tone != "yes" or not alone or judged(alone[1]["Fi_max"], error_of(alone[1], "Fi_max")) != ABOVE:
         return text, tone
@@ -214,7 +219,7 @@ def _cut(store):
 
 
 def _yielding(summary):
-    """Warning that a body would yield; it stands first because it changes the meaning of the index."""
+    """Warning that a body would yield; it comes first because it changes the meaning of the index."""
     found = summary.get("von_mises")
     if "fatigue" not in summary or not found or not found["yields"] or found["surface"] in steel_bodies(summary):
         return ()
@@ -227,7 +232,7 @@ def _yielding(summary):
 
 
 def _run_in(summary):
-    """What run-in left, before which the index would be another one."""
+    """Sentence about the effect of run-in, which changes the index."""
     if not (found := summary.get("run_in")):
         return ()
     if not found["plastic_strain_max"]:
@@ -241,7 +246,7 @@ def _run_in(summary):
 
 
 def _counted(scene):
-    """The part of the passage that counts, where it is not all of it."""
+    """Sentence about the part of the passage that counts, if it is not all of it."""
     counted = moments(scene)
     return (f"Only moments with the {counted} count (fatigue.from_x, to_x).",) if counted else ()
 
@@ -261,13 +266,13 @@ def _meaning(store, summary):
 
 
 def limit_words(scene):
-    """The sentence on what Fi = 1 stands for: whose limit, from where."""
+    """Sentence about the meaning of Fi = 1: source of the limit."""
     local = Strength(scene.fatigue, scene.surfaces[0]).at(0.0)
     return (_limit(local.endurance, local.kappa, local.criterion, scene.fatigue),)
 
 
 def _limit(stress, kappa, criterion, known):
-    """Meaning of Fi = 1; known: the section [fatigue], which has the source."""
+    """Text of the meaning of Fi = 1; known: the section [fatigue], which has the source."""
     where = " at the surface" if any(map(known.table_text, "ab")) else ""
     return (f"Fi = 1 is the fatigue limit{where} σ_eF = {stress / 1e6:.4g} MPa with κ = {kappa:.4g} ({criterion}): "
             f"{material(known)}.")

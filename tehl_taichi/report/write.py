@@ -1,4 +1,4 @@
-"""From a folder to its page on the disk."""
+"""Writing of the page of a folder."""
 
 from os import PathLike
 from pathlib import Path
@@ -11,7 +11,7 @@ from tehl_taichi.values.path_arguments import folder_of
 
 def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force: bool = False, progress: Any = None,
            threads: int | None = None, pages: bool = False, **constants: Any) -> Path:
-    """As :func:`tehl_taichi.report`."""
+    """Write a page: see :func:`tehl_taichi.report`."""
     from tehl_taichi.report import document, embed
 
     folder = folder_of(of)
@@ -27,8 +27,9 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
 
 
 def _renewed_search(folder, constants):
-    """Search of the run in `folder` with these constants; None where that search is stored. Raises
-    StoreError, SceneError."""
+    """New search of the run in `folder` with these constants; None if the stored search has them. Raises StoreError,
+    SceneError.
+    """
     if all(value is None for value in constants.values()):
         return None
     from tehl_taichi.report.renewed_search import RenewedSearch
@@ -38,7 +39,7 @@ def _renewed_search(folder, constants):
 
 
 def _position_pages(folder, force):
-    """Write the pages of the positions of a flank or a cam. Raises SceneError of another result."""
+    """Write the pages of the positions of a flank or a cam. Raises SceneError for other results."""
     from tehl_taichi.report import document, position_pages, run_page
     from tehl_taichi.runs.open_results import CAM, FLANK, kind
     from tehl_taichi.runs.open_results import open as opened
@@ -50,14 +51,15 @@ def _position_pages(folder, force):
 
 
 def default_page(folder, end=""):
-    """The file of the page of `folder` by default; end: of its name."""
+    """Default file of the page of `folder`; end: of its name."""
     folder = folder.absolute() if not folder.name else folder
     return folder.with_name(f"{folder.stem if folder.suffix else folder.name}{end}.html")
 
 
 def page_of(folder, out=None):
-    """The :class:`tehl_taichi.report.document.Page` of whatever lies in `folder`; out: its file, from where links start.
-    Raises StoreError."""
+    """The :class:`tehl_taichi.report.document.Page` of the results in `folder`; out: its file, base of its links. Raises
+    StoreError.
+    """
     from tehl_taichi.report import bearing_page, cam_page, flank_page, run_page, study_page
     from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, RUN, STUDY, kind
 

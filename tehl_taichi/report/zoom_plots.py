@@ -1,4 +1,4 @@
-"""The zoom window of a run at its largest pressure: along the row through the feature on both grids, and maps."""
+"""Zoom window of a run at its largest pressure: lines along the row through the feature on both grids, and maps."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from tehl_taichi.view.zoom_window import ZoomWindow
 
 
 def section(store):
-    """The section, none of a run without a window."""
+    """(:class:`Section`,), or () without a window."""
     window = ZoomWindow.of(store)
     if window is None or not window.entries.size:
         return ()
@@ -23,7 +23,7 @@ def section(store):
 
 
 def _lines(store, window):
-    """Pressure, film and temperature along the row of the lines; None where the window does not reach it."""
+    """Figure of pressure, film and temperature along the row of the lines; None if the window does not contain it."""
     moments, n = Moments(store), window.worst
     if (row := window.row(store.y[moments.line])) is None:
         return None
@@ -41,12 +41,12 @@ def _lines(store, window):
 
 
 def _ends(store, name):
-    """Keys of an axis: the film without the gap behind the contact."""
+    """Keys of an axis: the film's range excludes the gap behind the contact."""
     return {"range": [0.0, film_top(store) * 1e6]} if name == "film" else {}
 
 
 def _maps(store, window):
-    """Pressure and film; none where nothing varies across."""
+    """Maps of pressure and film; () if nothing varies along y."""
     if window.y.size == 1:
         return ()
     moments, n = Moments(store), window.worst

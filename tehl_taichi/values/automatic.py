@@ -1,5 +1,5 @@
-"""A number that the program chose where a scene says "auto"."""
+"""A number that the program chose for "auto" in a scene."""
 
 
 class AutomaticValue(float):
-    """A float like any other; a description of the scene says "auto" in its place."""
+    """A float; descriptions of the scene show "auto" in its place."""

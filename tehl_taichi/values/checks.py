@@ -1,4 +1,4 @@
-"""Checks at the door: one sentence with the value, the unit and what is allowed."""
+"""Checks of input values: one sentence with the value, the unit and the allowed range."""
 
 import contextlib
 import dataclasses
@@ -15,8 +15,11 @@ HUGE = 10**300  # whole numbers beyond it are no floats
 
 
 def number(where, value, unit="", low=-math.inf, high=math.inf, strict=False, infinite=False, usual=0.0, least=0.0):
-    """Refuse `value` unless it is a number within low..high (`strict`: low itself is refused too), and 0, infinite or at least
-    `least` in size; of what is out of range as if in another unit the one is named that comes nearest to a usual value."""
+    """Refuse `value` unless it is a number within low..high.
+
+    strict: low itself is refused; infinite: inf is allowed; least: smallest allowed size, except 0. For a value that fits in
+    another unit, the message names the one nearest to `usual`.
+    """
     allowed = _allowed(unit, low, high, strict, least)
     if isinstance(value, bool) or not isinstance(value, (int, float)) or value != value:
         raise SceneError(f"{where} = {shown(value)} is not a number{allowed}")
@@ -29,14 +32,14 @@ def number(where, value, unit="", low=-math.inf, high=math.inf, strict=False, in
 
 
 def _within(value, low, high, strict, least, infinite=False):
-    """Whether a value is in its range; infinite: and so is inf, above a range that begins somewhere."""
+    """Whether a value is in its range; infinite: inf is allowed if the range has no upper end."""
     if infinite and value == math.inf and low > -math.inf:
         return True
     return low <= value <= high and not (strict and value == low) and (value == 0 or abs(value) >= least)
 
 
 def _allowed(unit, low, high, strict, least=0.0):
-    """The range as a refusal says it; least: the smallest size of what is not 0."""
+    """Text of the range in a refusal; least: smallest size, except 0."""
     unit = " " + unit if unit else ""
     if least:
         above = f"0, or at least {least:g}{unit}"
@@ -95,7 +98,7 @@ def file_name(where, value):
 
 
 def nearest(word, allowed):
-    """' (did you mean ...?)' for the closest known word, or nothing."""
+    """Text ' (did you mean ...?)' for the closest known word, or nothing."""
     word = word[:100] if isinstance(word, str) else shown(word)
     known = {str(a).lower(): str(a) for a in allowed}
     close = difflib.get_close_matches(word.lower(), known, n=5, cutoff=0.5) or _with(word.lower(), known)
@@ -103,17 +106,17 @@ def nearest(word, allowed):
 
 
 def _with(word, known):
-    """The names that contain a word of at least three letters."""
+    """Names that contain a word of at least three letters."""
     return [name for name in known if len(word) > 2 and word in name]
 
 
 def _likeness(one, word):
-    """How much a known name is like a word; of equally near names that with the longer common beginning."""
+    """Similarity of a known name to a word; of equally similar names the one with the longer common beginning."""
     return difflib.SequenceMatcher(None, one, word).ratio(), len(os.path.commonprefix([one, word]))
 
 
 def normalise(part):
-    """Give a frozen dataclass plain Python values (see :func:`plain`), whole numbers as floats where a float is meant."""
+    """Give a frozen dataclass plain Python values (see :func:`plain`), and floats for whole numbers in float fields."""
     for field in dataclasses.fields(part):
         value = plain(getattr(part, field.name))
         real = field.type in (float, Union[float, str])
@@ -123,7 +126,7 @@ def normalise(part):
 
 
 def build(cls, values, section, general=None):
-    """cls(**values); unknown keys are refused, and messages name `section` in place of the `general` of cls."""
+    """Return cls(**values); refuse unknown keys. Messages name `section` in place of the `general` name of cls."""
     if not isinstance(values, dict):
         raise SceneError(f"[{section}] must be a table of keys and values, not {shown(values)}")
     known = [f.name for f in dataclasses.fields(cls)]
@@ -136,7 +139,7 @@ def build(cls, values, section, general=None):
 
 @contextlib.contextmanager
 def speaking_of(section, general):
-    """Refusals about `general`.key speak of `section`.key: which body, which feature."""
+    """Context manager: messages about `general`.key name `section`.key instead, for a body or feature."""
     try:
         yield
     except SceneError as error:
@@ -144,5 +147,5 @@ def speaking_of(section, general):
 
 
 def key_shown(key):
-    """A key as it may stand in a sentence."""
+    """Text of a key in a sentence."""
     return key if isinstance(key, str) and key.isprintable() and len(key) < 60 else shown(key)

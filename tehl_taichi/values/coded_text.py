@@ -1,10 +1,10 @@
-"""A sentence with a short word for its kind and the numbers in it: programs read these, never the sentence."""
+"""Sentences with a code for their kind and their numbers as data: programs read these, not the sentence."""
 
 
 class CodedText(str):
-    """The sentence; code: the word of its kind, "" where it is unknown; data: {name with its SI unit: value}.
+    """A sentence. code: of its kind, "" if unknown; data: {name with its SI unit: value}.
 
-    "options" of the data: {an option of the command line in the sentence: the same in words, for a report}.
+    "options" in the data: {a command-line option in the sentence: words for a report}.
     """
 
     code: str
@@ -20,7 +20,7 @@ class CodedText(str):
 
 
 class Reason(CodedText):
-    """Why a number or its error is not known."""
+    """Reason why a number or its error is not known."""
 
 
 def code_of(text):
@@ -34,13 +34,13 @@ def unknown_of(reasons):
 
 
 def reasons_of(part):
-    """{name: Reason} of a part of a summary; without codes where an older version wrote it."""
+    """{name: Reason} of a part of a summary; without codes if an older version wrote it."""
     codes = part.get("unknown_codes", {})
     return {name: Reason(text, codes.get(name, code_of(text))) for name, text in part.get("unknown", {}).items()}
 
 
 class Option(str):
-    """Options of the command line inside a sentence; words: the same for a report, which has no command line."""
+    """Command-line options inside a sentence; words: text for a report, which has no command line."""
 
     words: str
 
@@ -51,14 +51,14 @@ class Option(str):
 
 
 def grid_option(nx, ny=None):
-    """--grid with these cells; ny: None where nothing varies across."""
+    """Option --grid with these cells; ny: None without variation along y."""
     if ny is None:
         return Option(f"--grid {nx}", f"a grid of {nx} columns")
     return Option(f"--grid {nx}x{ny}", f"a grid of {nx} × {ny} cells")
 
 
 def options_of(*parts):
-    """{"options": {text: words}} of those parts that are options; {} without any."""
+    """{"options": {text: words}} of the parts that are options; {} without any."""
     found = {str(part): part.words for part in parts if isinstance(part, Option)}
     return {"options": found} if found else {}
 

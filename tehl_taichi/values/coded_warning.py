@@ -1,4 +1,4 @@
-"""Warnings: sentences with a short word for their kind, and the numbers in them, for scripts."""
+"""Warnings: sentences with a code for their kind and their numbers, for scripts."""
 
 import json
 
@@ -10,23 +10,22 @@ class CodedWarning(CodedText):
 
 
 def with_data(text, *options, **data):
-    """The sentence of a check with the values in it; options: those parts of it that are options of the command line."""
+    """Sentence of a check with its values; options: parts of it that are command-line options."""
     return CodedWarning(text, data=data | options_of(*options))
 
 
 def coded_warning(checks, *args):
-    """What {function(*args) -> sentences: code of them} say, each sentence once (of features that are alike every one says the
-    same)."""
+    """Warnings of checks {function(*args) -> sentences: code}, each sentence once (equal features give equal sentences)."""
     return once(CodedWarning(text, code, getattr(text, "data", {})) for check, code in checks.items() for text in check(*args))
 
 
 def once(sentences):
-    """A list of them without repetition."""
+    """List of the sentences without repetition."""
     return list(dict.fromkeys(sentences))
 
 
 def lists(warnings):
-    """{name: list} of their sentences, codes and data, as a summary and a store have them."""
+    """{name: list} of the sentences, codes and data of warnings, for summaries and stores."""
     whole = [one if isinstance(one, CodedWarning) else CodedWarning(one) for one in warnings]
     return {"warnings": [str(one) for one in whole], "warning_codes": [one.code for one in whole],
             "warning_data": [one.data for one in whole]}
@@ -38,7 +37,7 @@ def texts(warnings):
 
 
 def of_lists(sentences, codes, data):
-    """The warnings that such lists are of; without codes where older versions wrote them."""
+    """Warnings from such lists; without codes if older versions wrote them."""
     if not len(sentences) == len(codes) == len(data):
         return [CodedWarning(text) for text in sentences]
     return [CodedWarning(*one) for one in zip(sentences, codes, data)]

@@ -1,4 +1,4 @@
-"""Values as plain Python ones, and as a sentence may show them."""
+"""Conversion of values to plain Python types, and to text for sentences."""
 
 import os
 import reprlib
@@ -26,7 +26,7 @@ def shown(value):
 
 
 def text_of(value):
-    """A value that is text, else ""; whoever needs text refuses the others with a sentence."""
+    """The value if it is text, else "" (which the caller refuses)."""
     return value if isinstance(value, str) else ""
 
 

@@ -1,4 +1,4 @@
-"""Units of numbers for readers, and how many digits they get, with and without an error."""
+"""Printed units of numbers, and their number of digits, with and without an error."""
 
 import math
 
@@ -8,18 +8,18 @@ SCALES = {"m": ((1e-3, 1e6, "µm"), (1.0, 1e3, "mm")), "Pa": ((1e9, 1e-6, "MPa")
 
 
 def fitting(unit, size):
-    """(factor, unit) for numbers of about `size` in the SI unit `unit`: 2e9 Pa are read in GPa."""
+    """(factor, unit) for numbers of about `size` in the SI unit `unit`: 2e9 Pa are printed in GPa."""
     known = ((factor, shown) for below, factor, shown in SCALES.get(unit, ()) if abs(size) < below)
     return next(known, (1.0, unit))
 
 
 def micrometres(length):
-    """A length (m) in whole micrometres, below ten with two digits."""
+    """Text of a length (m) in whole micrometres; below ten with two digits."""
     return f"{length * 1e6:.0f}" if length >= 9.95e-6 else f"{length * 1e6:.2g}"
 
 
 def decimals(error):
-    """Decimals with which two digits of an error (more than 0) are shown; may be negative."""
+    """Number of decimals for two digits of an error > 0; may be negative."""
     return 1 - math.floor(math.log10(error))
 
 
@@ -28,15 +28,16 @@ PLAIN = (1e-3, 1e6)  # numbers between these are shown without an exponent
 
 
 def with_error(value, error, unit="", digits=4):
-    """'1.008 ± 0.023 µm': two digits of the error, and the value with as many decimals; `digits` of the value where the error
-    is not known (None)."""
+    """Text such as '1.008 ± 0.023 µm': two digits of the error, and the value with as many decimals; `digits` digits of the
+    value if the error is not known (None).
+    """
     text, rest, power = parted(value, error, digits)
     both = f"{text} ± {rest}" if rest else text
     return f"{f'({both}){power}' if power and rest else both + power} {unit}".rstrip()
 
 
 def parted(value, error, digits=4):
-    """(value, error, power of ten) in words as :func:`with_error` joins them; error "": not known."""
+    """(value, error, power of ten) as texts for :func:`with_error`; error "": not known."""
     if error is None or not math.isfinite(error) or not math.isfinite(value):
         return f"{value:.{digits}g}", "", ""
     size = max(abs(value), error)

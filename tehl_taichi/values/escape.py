@@ -1,7 +1,7 @@
-"""Text from elsewhere (names, notes, paths) as each kind of output shows it as it is: one function for each.
+"""Escaping of external texts (names, notes, paths): one function for each kind of output.
 
-Figures read no text as mathematics (`tehl_taichi/view/figures/figure_style.py`), templates of pages escape what they are given,
-names of folders are checked (`checks.file_name`).
+Figures do not read text as mathematics (`tehl_taichi/view/figures/figure_style.py`), page templates escape their values, folder
+names are checked (`checks.file_name`).
 """
 
 import html
@@ -13,8 +13,8 @@ LINES = "\n"
 
 
 def printable(text, keep=""):
-    """Text for terminals, pages and figures: letters that do not print (escape sequences, line breaks but for those in
-    `keep`, marks that turn the direction) are spelled.
+    """Text for terminals, pages and figures: non-printing letters (escape sequences, line breaks except those in `keep`,
+    direction marks) are spelled.
 
     >>> printable("a\\x1b[2Jb\\n")
     'a\\\\x1b[2Jb\\\\n'
@@ -52,7 +52,7 @@ def cell(value):
 
 
 def label(text):
-    """Text for the labels of plotly.js, which knows some tags of HTML."""
+    """Text for labels of plotly.js, which interprets some HTML tags."""
     return html.escape(printable(text), quote=False)
 
 

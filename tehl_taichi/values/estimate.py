@@ -1,4 +1,4 @@
-"""A number with its error bar, unit, and the reason where the error is not known."""
+"""A number with its error bar, unit, and the reason if the error is not known."""
 
 from dataclasses import dataclass
 
@@ -7,20 +7,20 @@ from tehl_taichi.values.digits import fitting, with_error
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number of a summary with its error: `run["p_max"]` gives one.
+    """A number of a summary with its error; `run["p_max"]` returns one.
 
     Attributes
     ----------
     value : float
-        In SI units (temperatures in deg C).
+          In SI units (temperatures in deg C).
     error : float or None
-        Estimated discretisation error, in the same unit; None where it is unknown.
+          Estimated discretisation error, in the same unit; None if it is unknown.
     unit : str
-        "" for a pure number.
+          "" for a pure number.
     reason : str
-        Why the error is unknown; "" where it is known, or the number has none.
+          Reason why the error is unknown; "" if it is known, or if the number has none.
     name : str
-        Its place in the summary, "transient.p_max_Pa" for instance.
+          Its place in the summary, "transient.p_max_Pa" for instance.
 
     Examples
     --------
@@ -45,7 +45,7 @@ class Quantity:
 
     @property
     def relative(self):
-        """Error over value; None where one of them is unknown or the value is 0."""
+        """Error over value; None if one of them is unknown or the value is 0."""
         return None if self.error is None or not self.value else abs(self.error / self.value)
 
     def __str__(self):

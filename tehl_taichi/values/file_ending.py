@@ -1,8 +1,8 @@
-"""The ending of a file's name, as instruments, Windows and people write it."""
+"""Ending of a file name, in upper or lower case."""
 
 from pathlib import Path
 
 
 def ending(path):
-    """".csv" of a.csv, A.CSV and a.Csv alike; "" where there is none."""
+    """Ending in lower case: ".csv" of a.csv, A.CSV and a.Csv; "" without one."""
     return Path(path).suffix.lower()

@@ -1,4 +1,4 @@
-"""Arguments of Python callers in place of a path."""
+"""Path arguments of Python callers."""
 
 from os import PathLike
 from pathlib import Path
@@ -8,7 +8,7 @@ from tehl_taichi.values.coerce import shown
 
 
 def path_of(name, value):
-    """The Path that an argument means. Raises SceneError where it is no text and no path."""
+    """Path of an argument. Raises SceneError if it is neither text nor path."""
     if not isinstance(value, (str, PathLike)) or isinstance(value, bytes):
         raise SceneError(f"{name} = {shown(value)} is not a path; allowed: text or a pathlib.Path")
     return Path(value)

@@ -1,9 +1,9 @@
-"""Plugins: folders of the user with laws, criteria, shapes, oils ..., in subfolders named as the package's (shear, shapes ...).
+"""Plugins: user folders with laws, criteria, shapes, oils ..., in subfolders named as the package's (shear, shapes ...).
 
-A plugin is a folder or the name of a package that Python finds. The environment variable TEHL_PLUGINS names it (several with a
-colon between them; TEHL_ENTRIES is its older name), or `plugins = [...]` in a scene file, or an installed package by an entry
-point `tehl_taichi.plugins`. Worker processes inherit the variable. Registries are read once, so that a plugin must be known
-before. Files whose names begin with an underscore are not read.
+A plugin is a folder or the name of an importable package. It is named by the environment variable TEHL_PLUGINS (several with a
+colon between them; TEHL_ENTRIES is its older name), by `plugins = [...]` in a scene file, or by an entry point
+`tehl_taichi.plugins` of an installed package. Worker processes inherit the variable. Registries are read once, so a plugin must
+be known before. Files whose names begin with an underscore are not read.
 """
 
 import functools
@@ -22,7 +22,7 @@ LARGEST = 10**7  # bytes of a file that is read; a larger one is refused by whoe
 
 
 def folders():
-    """{folder: who named it} of all plugins. Raises SceneError for one that does not exist."""
+    """{folder: text of its origin} of all plugins. Raises SceneError for a missing folder."""
     named = {_folder(name, variable): variable for variable in (VARIABLE, OLDER)
              for name in os.environ.get(variable, "").split(os.pathsep) if name}
     return {**{_folder(value, f"entry point {name}"): f"entry point {name}" for name, value in _entry_points()}, **named}
@@ -35,7 +35,7 @@ def _entry_points():
 
 
 def _folder(name, who, beside=None):
-    """The folder of a plugin; beside: of the file that names it. Raises SceneError."""
+    """Folder of a plugin; beside: folder of the file that names it. Raises SceneError."""
     for path in ((beside or Path()) / name, *_package(name)):
         if path.is_dir():
             return path.absolute()
@@ -43,7 +43,7 @@ def _folder(name, who, beside=None):
 
 
 def _package(name):
-    """Folder of a package by its name, without importing it; none where Python does not find it."""
+    """Folders of a package by its name, without importing it; [] if Python does not find it."""
     try:
         spec = importlib.util.find_spec(name) if name.replace(".", "").isidentifier() else None
     except (ImportError, ValueError):
@@ -52,7 +52,7 @@ def _package(name):
 
 
 def modules(subfolder):
-    """Generator of the modules in a subfolder of all plugins, in the order of their names. Raises SceneError."""
+    """Generator of the modules in a subfolder of all plugins, sorted by name. Raises SceneError."""
     for folder in folders():
         for path in sorted((folder / subfolder).glob("[!_]*.py")):
             yield _loaded(f"{PREFIX}{folder.name}_{_digest(folder)}.{subfolder}.{path.stem}", path)
@@ -63,9 +63,10 @@ def _digest(folder):
 
 
 def of_file(path):
-    """Take the plugins of a scene file, and of the scene that a gear, bearing or study file names, before any registry is read.
+    """Register the plugins of a scene file (or of the scene that a gear, bearing or study file names) before any registry is
+    read.
 
-    What is no such file is left to whoever reads it. Raises SceneError for a plugin that does not exist, or comes too late.
+    Other files are ignored. Raises SceneError for a plugin that does not exist, or is named too late.
     """
     path = Path(path)
     data = _toml(path)
@@ -76,7 +77,7 @@ def of_file(path):
 
 
 def _toml(path):
-    """The dictionary of a TOML file, {} of what is none."""
+    """Dictionary of a TOML file, {} for other files."""
     if not path.name.lower().endswith(".toml") or not path.is_file() or path.stat().st_size > LARGEST:
         return {}
     try:
@@ -86,7 +87,7 @@ def _toml(path):
 
 
 def use(names, path):
-    """Take the plugins that the file `path` names; folders are relative to it. Raises SceneError."""
+    """Register the plugins named in the file `path`; folders are relative to it. Raises SceneError."""
     if not isinstance(names, list) or not all(isinstance(name, str) and name for name in names):
         raise SceneError(f"{KEY} = {names!r} in {path} must be a list of folders or packages, as in [\"mylaws\"]")
     given = [_folder(name, KEY, path.absolute().parent) for name in names]
@@ -99,12 +100,12 @@ def use(names, path):
 
 
 def loaded():
-    """The modules of plugins that were loaded so far."""
+    """Plugin modules loaded so far."""
     return [module for name, module in sorted(sys.modules.items()) if name.startswith(PREFIX)]
 
 
 def unread():
-    """Python files that lie in a plugin's folder itself, where none is read."""
+    """Python files directly in a plugin's folder, where none is read."""
     return sorted(path for folder in folders() for path in folder.glob("*.py") if path.name != "__init__.py")
 
 

@@ -1,7 +1,7 @@
-"""Declaration of a value of a scene, once where it stands: default, unit, meaning, range.
+"""Declaration of a scene value, once in its class: default, unit, meaning, range.
 
-The checks at the door, the template of `tehl new` and the documents all read the same declaration:
-`width: float = quantity(200e-6, "m", "length along x", 1e-6, 0.1)`, and :func:`check` in `__post_init__`.
+Input checks, the template of `tehl new` and the documentation read the same declaration: `width: float = quantity(200e-6, "m",
+"length along x", 1e-6, 0.1)`, and :func:`check` in `__post_init__`.
 """
 
 import dataclasses
@@ -16,7 +16,7 @@ AUTO = "auto"
 
 
 class Kind:
-    """Base of what a value can be. about: its meaning; unit: '' where it has none; allowed: its range in words."""
+    """Base of the kinds of values. about: meaning; unit: '' without one; allowed: text of the range."""
 
     about: str
     unit: str = ""
@@ -26,7 +26,7 @@ class Kind:
         return ""
 
     def taken(self, where, value):
-        """A value as it is checked and kept; text with a unit becomes a number. Raises SceneError for another unit."""
+        """Checked value; text with a unit becomes a number. Raises SceneError for a wrong unit."""
         return value
 
     @property
@@ -37,9 +37,12 @@ class Kind:
 
 @dataclass(frozen=True)
 class Number(Kind):
-    """A number in its unit; strict: `low` itself is refused; infinite: inf is allowed; usual: one of its order (0: unknown);
-    least: the smallest size of one that is not 0, below which it was meant in another unit; common: (low, high), what is
-    allowed beyond them is doubted where another unit makes a common value of it; auto: the scene itself decides by default."""
+    """A number with a unit.
+
+    strict: `low` itself is refused; infinite: inf is allowed; usual: a value of the usual order (0: unknown); least: smallest
+    size except 0, below which another unit was meant; common: (low, high), values beyond are doubted if they are common in
+    another unit; auto: the default is "auto".
+    """
 
     about: str
     unit: str = "-"
@@ -53,7 +56,7 @@ class Number(Kind):
     auto: bool = False
 
     def doubted(self, where, value):
-        """A sentence about a value that is allowed, but was perhaps meant in another unit; "" where it was not."""
+        """Sentence about an allowed value that was perhaps meant in another unit, or ""."""
         low, high = self.common or (-math.inf, math.inf)
         if low <= value <= high:
             return ""
@@ -71,7 +74,7 @@ class Number(Kind):
 
     @property
     def allowed(self):
-        """The range in words, '' where there is none."""
+        """Text of the range, '' without one."""
         if self.least:
             return f"0 or {self.least:g} to {self.high:g}{' in size' * (self.low < 0)}"
         if self.low > -math.inf and self.high < math.inf:
@@ -82,7 +85,7 @@ class Number(Kind):
 
 @dataclass(frozen=True)
 class Numbers(Number):
-    """A list of such numbers; with `auto`: the scene itself decides by default."""
+    """A list of such numbers; auto: the default is "auto"."""
 
     def taken(self, where, value):
         if not isinstance(value, (tuple, list)):
@@ -136,7 +139,7 @@ class CountOf(Kind):
 
 @dataclass(frozen=True)
 class Choice(Kind):
-    """One of some words."""
+    """One of several words."""
 
     about: str
     words: tuple
@@ -151,7 +154,7 @@ class Choice(Kind):
 
 @dataclass(frozen=True)
 class Switch(Kind):
-    """true or false; with `auto`: the scene itself decides by default."""
+    """true or false; auto: the default is "auto"."""
 
     about: str
     auto: bool = False
@@ -167,7 +170,7 @@ class Switch(Kind):
 
 @dataclass(frozen=True)
 class Text(Kind):
-    """Words, at most so many characters; one_line: without line breaks."""
+    """Text of limited length; one_line: without line breaks."""
 
     about: str
     most: int = 500
@@ -179,8 +182,9 @@ class Text(Kind):
 
 @dataclass(frozen=True)
 class Pairs(Kind):
-    """A list of pairs of numbers with rising first numbers: empty, or `fewest` to `most` pairs; jumps: a first number may stand
-    twice."""
+    """A list of pairs of numbers with rising first numbers: empty, or `fewest` to `most` pairs; jumps: a first number may occur
+    twice.
+    """
 
     about: str
     fewest: int
@@ -197,7 +201,7 @@ class Pairs(Kind):
             raise self.refusal(where, value)
 
     def _rises(self, firsts):
-        """Whether each of these is more than the one before (with `jumps`: than the one before that)."""
+        """Whether the numbers rise (with `jumps`: each is greater than the last but one)."""
         apart = 2 if self.jumps else 1
         return firsts == sorted(firsts) and all(a < b for a, b in zip(firsts, firsts[apart:]))
 
@@ -216,20 +220,21 @@ def _declared(default, kind, compare=True):
 
 def quantity(default, unit, about, low=-math.inf, high=math.inf, strict=False, infinite=False, usual=0.0, least=0.0,
              common=()):
-    """Field of a dataclass: a number in `unit` within low..high, or "auto" where that is the default; usual: one of its order,
-    where the default is none; least, common: see :class:`Number`."""
+    """Dataclass field: a number in `unit` within low..high, or "auto" if that is the default; other arguments: see
+    :class:`Number`.
+    """
     auto = default == AUTO
     usual = usual or (default if not auto and default is not None and math.isfinite(default) else 0.0)
     return _declared(default, Number(about, unit or "-", low, high, strict, infinite, usual, least, common, auto))
 
 
 def quantities(default, unit, about, low=-math.inf, high=math.inf, auto=False, usual=0.0):
-    """Field: a list of such numbers."""
+    """Dataclass field: a list of such numbers."""
     return _declared(default, Numbers(about, unit, low, high, usual=usual, auto=auto))
 
 
 def count(default, about, low, high, multiple=1):
-    """Field: a whole number."""
+    """Dataclass field: a whole number."""
     return _declared(default, Count(about, low, high, multiple))
 
 
@@ -239,22 +244,22 @@ def count_of(default, about, *counts):
 
 
 def choice(default, about, words):
-    """Field: one of `words`."""
+    """Dataclass field: one of `words`."""
     return _declared(default, Choice(about, words))
 
 
 def switch(default, about, auto=False):
-    """Field: true or false, or "auto"."""
+    """Dataclass field: true or false, or "auto"."""
     return _declared(default, Switch(about, auto))
 
 
 def text(default, about, most=500, one_line=True, compare=True):
-    """Field: words; compare: whether they make two scenes different."""
+    """Dataclass field: text; compare: scenes with different texts are different."""
     return _declared(default, Text(about, most, one_line), compare)
 
 
 def pairs(default, about, fewest, most, jumps=False):
-    """Field: a list of pairs of numbers, or none."""
+    """Dataclass field: a list of pairs of numbers, or none."""
     return _declared(default, Pairs(about, fewest, most, jumps))
 
 
@@ -264,8 +269,9 @@ def kinds(cls):
 
 
 def documented(cls):
-    """Class decorator: the declared keys become the parameters of its docstring, those that differ from their defaults its
-    repr."""
+    """Class decorator: adds the declared keys to the docstring as parameters; the repr shows the keys that differ from their
+    defaults.
+    """
     about, mark, examples = cls.__doc__.partition("\n\n    Examples\n")
     rows = "".join(f"\n    {key} : {_default(cls, key)}\n        {_meaning(kind)}" for key, kind in kinds(cls).items())
     cls.__doc__ = f"{about.rstrip()}\n\n    Parameters\n    ----------{rows}{mark}{examples}"
@@ -286,16 +292,16 @@ def _meaning(kind):
 
 
 def _changed(part):
-    """The call that makes this part, without the keys that have their defaults."""
+    """Text of the call that makes this part, without default values."""
     given = ((key, getattr(part, key)) for key in kinds(type(part)))
     return f"{type(part).__name__}({', '.join(f'{k}={v!r}' for k, v in given if v != getattr(type(part), k, None))})"
 
 
 def check(part, section="", **in_unit):
-    """Check every value of `part` by its declaration, and keep numbers in place of text with a unit; None is allowed where the
-    default is None. in_unit: {key: unit} where a unit depends on other values.
+    """Check every value of `part` by its declaration; texts with a unit become numbers, None is allowed if it is the default.
 
-    Raises SceneError: one sentence with the value, the unit and what is allowed.
+    in_unit: {key: unit} for units that depend on other values. Raises SceneError: one sentence with the value, the unit and the
+    allowed range.
     """
     checks.normalise(part)
     for key, kind in kinds(type(part)).items():

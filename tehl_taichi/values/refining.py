@@ -1,4 +1,4 @@
-"""From the nodes of a grid to those of a finer one: matrices of Lagrange weights, one along each axis."""
+"""Interpolation from the nodes of a grid to those of a finer one: matrices of Lagrange weights, one along each axis."""
 
 import functools
 
@@ -9,10 +9,10 @@ from tehl_taichi.values.interpolation import lagrange
 
 @functools.lru_cache(maxsize=32)
 def matrix(factor, nodes, points, mirrored=False, odd=False):
-    """Weights (fine nodes, nodes) of the nodes 0 ... nodes - 1 for all fine ones, `factor` of them to a cell.
+    """Weights (fine nodes, nodes) of the nodes 0 ... nodes - 1 for all fine nodes, `factor` of them per cell.
 
-    points: of the polynomial; near the ends it is one-sided, but mirrored about node 0 where `mirrored`, with the other sign
-    there where the field is `odd`.
+    points: of the polynomial. Near the ends it is one-sided; with `mirrored` node 0 is a symmetry axis, with `odd` an
+    antisymmetric one.
     """
     out = np.zeros(((nodes - 1) * factor + 1, nodes))
     for fine, row in enumerate(out):
@@ -28,8 +28,9 @@ def matrix(factor, nodes, points, mirrored=False, odd=False):
 
 
 class Refining:
-    """Fields (..., rows, columns) of a grid at the nodes of a window of fine ones: first and number of rows and of columns.
-    Those beyond an end of the grid count as that."""
+    """Interpolation of fields (..., rows, columns) to a window of fine nodes: first row and column, their numbers. Nodes beyond
+    an end of the grid take the value there.
+    """
 
     def __init__(self, first, count, factor, nodes, mirrored):
         self.parts = [np.clip(np.arange(begin, begin + number), 0, (of - 1) * factor)
@@ -37,12 +38,12 @@ class Refining:
         self.factor, self.nodes, self.mirrored = factor, nodes, mirrored
 
     def smooth(self, field, points=6):
-        """By polynomials through so many nodes."""
+        """Field by polynomials through `points` nodes."""
         y, x = (matrix(self.factor, nodes, points, mirrored)[part] if nodes > 1 else np.ones((1, 1))
                 for nodes, part, mirrored in zip(self.nodes, self.parts, (self.mirrored, False)))
         return y @ field @ x.T
 
     def pressure(self, field):
-        """By cubic polynomials, linear in cells with a dry node, never negative."""
+        """Pressure by cubic polynomials, linear in cells with a dry node, never negative."""
         dry = self.smooth((field <= 0.0).astype(float), 2) > 0.0
         return np.maximum(np.where(dry, self.smooth(field, 2), self.smooth(field, 4)), 0.0)

@@ -1,7 +1,7 @@
-"""Registries: one entry, one idea. A law, a shape, a criterion, an oil, an output field is made by one declaration in one file.
+"""Registries: one entry per idea. A law, a shape, a criterion, an oil, an output field is made by one declaration in one file.
 
-Whoever offers choices (scenes, their template, suites, documentation) reads the entries of a folder by :func:`collect`; a new
-file in that folder is a new choice.
+Modules that offer choices (scenes, their template, suites, documentation) read the entries of a folder by :func:`collect`; a
+new file in that folder is a new choice.
 """
 
 import importlib
@@ -19,7 +19,7 @@ started: set[str] = set()  # folders that were read: their choices do not change
 
 @dataclass(frozen=True)
 class Checked:
-    """A number known from elsewhere: compute() must give `expected` within the relative error `rel`; where: who knows it."""
+    """A known number: compute() must give `expected` within the relative error `rel`; where: its source."""
 
     where: str
     expected: float
@@ -29,8 +29,9 @@ class Checked:
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
-    """Fields of every entry: its name in scenes, a description of one line (with units and ranges of its own numbers),
-    its source, and at least one number that a test computes again."""
+    """Fields of every entry: its name in scenes, a one-line description (with units and ranges of its numbers), its source, and
+    at least one known number that a test computes again.
+    """
 
     name: str
     says: str
@@ -39,10 +40,10 @@ class Entry:
 
 
 def collect(folder, kind):
-    """{name: entry} of all entries of this kind that the modules of a folder (a package), and those of the user
-    (:mod:`tehl_taichi.values.plugins`), declare, in the order of their names.
+    """{name: entry} of all entries of this kind in the modules of a folder (a package) and in the user's modules
+    (:mod:`tehl_taichi.values.plugins`), sorted by name.
 
-    Raises SceneError when two entries have one name, or a file of the user has no entry.
+    Raises SceneError if two entries have one name, or a file of the user has no entry.
     """
     started.add(folder.__name__)
     found: dict[str, Any] = {}
@@ -57,12 +58,12 @@ def collect(folder, kind):
 
 
 def entries_of(module, kind=Entry):
-    """The entries of this kind that a module declares."""
+    """Entries of this kind that a module declares."""
     return [entry for entry in vars(module).values() if isinstance(entry, kind)]
 
 
 def _with_entries(subfolder, kind):
-    """Generator of the modules of the user. Raises SceneError for one without an entry."""
+    """Generator of the user's modules. Raises SceneError for one without an entry."""
     for module in plugins.modules(subfolder):
         if not entries_of(module):
             raise SceneError(f"{module.__file__} has no entry; assign a {kind.__name__}(name=...) to a name of the module, or "

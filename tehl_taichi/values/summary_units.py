@@ -1,10 +1,10 @@
-"""Units of numbers by the ends of their names, as summaries have them."""
+"""Units of numbers by the ends of their names, as in summaries."""
 
 UNITS = {"m": "m", "Pa": "Pa", "C": "degC", "K": "K", "s": "s", "deg": "degree", "J": "J", "W": "W", "N": "N", "kg": "kg"}
 
 
 def unit_of(name):
-    """Unit of a number: h_min_m is in m, load_error in nothing ("")."""
+    """Unit of a number: h_min_m is in m, load_error has none ("")."""
     return UNITS.get(name.rpartition("_")[2], "") if "_" in name else ""
 
 
@@ -14,5 +14,5 @@ NOTHING = {"m": 5e-9, "Pa": 1e6, "": 1e-3}
 
 
 def nothing_of(name):
-    """Size (SI) below which a number of that name counts as zero; 0: no such size."""
+    """Size (SI) below which a number with this name counts as zero; 0: none."""
     return NOTHING.get(unit_of(name), 0.0)

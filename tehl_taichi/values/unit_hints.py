@@ -1,4 +1,4 @@
-"""Likely meaning of a number out of its range: the same digits in a unit that people write it in."""
+"""Likely meaning of a number out of its range: the same digits in another usual unit."""
 
 import math
 
@@ -12,9 +12,10 @@ KELVIN = 273.15  # of 0 deg C
 
 
 def meant(value, unit, fits, usual=0.0):
-    """'; did you mean 400e6 Pa (400 MPa)?', or '' where no unit that people write makes sense of it.
+    """Text '; did you mean 400e6 Pa (400 MPa)?', or '' if no usual unit makes the value valid.
 
-    fits: function of a value in `unit`, whether it is allowed; usual: one of its order (0: unknown), the nearest is named.
+    fits: function of a value in `unit`, whether it is allowed; usual: a value of the usual order (0: unknown), the nearest
+    candidate is named.
 
     >>> meant(206, "Pa", lambda value: value > 1e6, usual=2e11)
     '; did you mean 206e9 Pa (206 GPa)?'
@@ -31,5 +32,5 @@ def meant(value, unit, fits, usual=0.0):
 
 
 def _apart(value, usual):
-    """Powers of ten between them; the order of `WRITTEN` decides where nothing is usual."""
+    """Powers of ten between the two; 0 without a usual value, so the order of `WRITTEN` decides."""
     return abs(math.log10(abs(value / usual))) if usual else 0.0

@@ -37,9 +37,9 @@ SPELLED = {"\u00b5": "u", "\u03bc": "u", "\u00b2": "2", "\u00b3": "3", "\u00b0":
 
 
 def in_unit(where, value, unit):
-    """The number in `unit` behind text as "3.8 mm"; what is no such text is returned as it is.
+    """Number in `unit` from a text such as "3.8 mm"; other values are returned unchanged.
 
-    A speed in m/s may be given as turns at a radius. Raises SceneError for a unit of something else.
+    A speed in m/s may be given as turns at a radius. Raises SceneError for a wrong unit.
 
     >>> in_unit("contact.radius_x", "3.8 mm", "m")
     0.0038
@@ -66,7 +66,7 @@ def known(name, unit):
 
 
 def split(text):
-    """(number, unit) of "3.8 mm" or "3.8", as text; turns at a radius have the unit "rpm at 40 mm". None for other text.
+    """(number, unit) of "3.8 mm" or "3.8", as text; turns at a radius have the unit "rpm at 40 mm". None for other texts.
 
     >>> split("1500rpm at 40 mm"), split("3.8"), split("limiting")
     (('1500', 'rpm at 40 mm'), ('3.8', ''), None)
@@ -81,8 +81,8 @@ def split(text):
 
 
 def in_same_unit(text, low, high):
-    """(low, high, unit) as numbers in the unit of `high`, for two (number, unit) of :func:`split`; text: what the user typed.
-    A low end without a unit has that of the high one. Raises SceneError.
+    """(low, high, unit) in the unit of `high`, from two (number, unit) of :func:`split`; text: user's input. A low end without
+    a unit has that of the high one. Raises SceneError.
 
     >>> in_same_unit("500N:2kN", ("500", "N"), ("2", "kN"))
     (0.5, 2.0, 'kN')
@@ -120,7 +120,7 @@ def _at_radius(where, value, turns, radius, of_radius):
 
 
 def _scaled(digits, size):
-    """Digits times a power of ten as one number: 3.8 mm is 0.0038, to the last bit."""
+    """Digits times a power of ten as one exactly rounded number: 3.8 mm is 0.0038."""
     power = round(math.log10(size)) if size > 0 else 0
     if size == float(f"1e{power}"):
         mantissa, _, exponent = digits.lower().partition("e")
@@ -129,12 +129,12 @@ def _scaled(digits, size):
 
 
 def _clean(value):
-    """A temperature without the rounding of its offset."""
+    """A temperature without the rounding error of its offset."""
     return round(value, 9)
 
 
 def _named(name, table):
-    """The entry of a unit in a table, however it is spelled; None where it has none."""
+    """Entry of a unit in a table, in any spelling; None if unknown."""
     return {_plain(known): entry for known, entry in table.items()}.get(_plain(name))
 
 

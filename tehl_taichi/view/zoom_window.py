@@ -1,4 +1,4 @@
-"""The fine window of a stored run, moment by moment."""
+"""Fine window of a stored run, by moment."""
 
 from functools import cached_property
 
@@ -12,7 +12,7 @@ FIRST = "zoom_"  # begins their names
 
 
 class ZoomWindow:
-    """What the window of the run in `store` has: `entries` of the run, distances `x` from its first column and `y` (m)."""
+    """Window of the run in `store`: `entries` of the run, distances `x` from its first column, and `y` (m)."""
 
     def __init__(self, store):
         self.store, self.entries = store, store.map("zoom_entry").astype(int)
@@ -21,7 +21,7 @@ class ZoomWindow:
 
     @classmethod
     def of(cls, store):
-        """Window of a stored run; None of a run without one."""
+        """Window of a stored run; None without one."""
         return cls(store) if store.map("zoom_entry") is not None else None
 
     def __contains__(self, entry):
@@ -29,36 +29,36 @@ class ZoomWindow:
 
     @cached_property
     def names(self):
-        """Names of its fields, as those of the run are named."""
+        """Names of its fields, equal to those of the run."""
         return [name.removeprefix(FIRST) for name, array in self.store.metadata.items()
                 if tuple(array["dimension_names"]) == ALONG]
 
     @cached_property
     def worst(self):
-        """Entry of the run at which the window has its largest pressure."""
+        """Entry of the run with the largest pressure in the window."""
         return int(self.entries[np.argmax(self.extremes("p_max_Pa"))])
 
     def _moments(self, name):
-        """A field at all of its entries, read once."""
+        """A field at all entries, read once."""
         if name not in self.read:
             self.read[name] = self.store.map(FIRST + name)
         return self.read[name]
 
     def columns(self, entry):
-        """Places of its columns (m) at an entry of the run that it has."""
+        """Positions (m) of its columns at one of its entries."""
         return self.lefts[self.place[int(entry)]] + self.x
 
     def fields(self, entry, names=None):
-        """{name: (columns, rows)} of those of these fields that it has (default: all) at an entry of the run, SI."""
+        """{name: (columns, rows)} of the available ones of these fields (default: all) at an entry of the run, SI."""
         shown = self.names if names is None else [name for name in names if name in self.names]
         return {name: self._moments(name)[self.place[int(entry)]] for name in shown}
 
     def extremes(self, name):
-        """One of EXTREMES at each of its entries, of the window alone."""
+        """One of EXTREMES at each entry, of the window alone."""
         field, extreme = EXTREMES[name]
         return extreme(self._moments(field), axis=(1, 2))
 
     def row(self, y):
-        """Number of its row at a row of the run, at y (m); None where it has none there."""
+        """Row number of the window at a row of the run, at y (m); None without one."""
         row = int(np.argmin(np.abs(self.y - y)))
         return row if abs(self.y[row] - y) < 1e-3 * (self.x[1] - self.x[0]) else None

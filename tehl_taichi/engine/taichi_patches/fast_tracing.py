@@ -1,9 +1,9 @@
-"""Kernels traced faster: what Taichi asks Python again and again, and what only its messages need, is left out.
+"""Faster tracing of kernels: Taichi's repeated requests to Python, and data that only its messages need, are left out.
 
-Every function is traced again wherever it is called: 1700 functions, 95 000 nodes of syntax and 80 000 expressions before the
-first step of a thermal run, so small things count. Of 1.25 s of a core before that step (kernels in the cache) functions cut
-out by their code save 0.14, expressions made straight away 0.1. Before that, of a coarse run (64x16): the source of
-a function, read and cut into lines at every call in a kernel, 0.6 s, parsed, 0.3; the position of every node (Findley search
+Every function is traced again wherever it is called: 1700 functions, 95 000 syntax nodes and 80 000 expressions before the
+first step of a thermal run, so small costs add up. Of 1.25 s of a core before that step (kernels in the cache), extracting
+functions by their code saves 0.14, making expressions directly 0.1. Earlier savings in a coarse run (64x16): reading and
+splitting the source of a function at every call in a kernel, 0.6 s; parsing it, 0.3; the position of every node (Findley search
 alone 2.9 -> 1.2), for messages that only developers see: TEHL_DEBUG=1 keeps it all.
 """
 
@@ -18,7 +18,7 @@ INT32 = range(-(2**31), 2**31)
 
 @functools.cache
 def _node(function):
-    """The tree of a function, None where its file does not show it (any more)."""
+    """Syntax tree of a function, None if its file no longer contains it."""
     code = function.__code__
     last = max((end for _, end, _, _ in code.co_positions() if end), default=0)
     lines = linecache.getlines(code.co_filename)[code.co_firstlineno - 1 : last]
@@ -30,13 +30,15 @@ def _node(function):
 
 
 def _headless(node):
-    """A module of a function without its decorators, its body shared with those before; Taichi empties its arguments."""
+    """Module with a function without its decorators; its body is shared with earlier ones, since Taichi empties its
+    arguments.
+    """
     head = {**vars(node), "args": ast.arguments(**vars(node.args)), "decorator_list": []}
     return ast.Module(body=[ast.FunctionDef(**head)], type_ignores=[])
 
 
 def trees():
-    """Take the source lines of a function from its code object, without a search by tokens, and parse them once."""
+    """Patch: take the source lines of a function from its code object, without a token search, and parse them once."""
     from taichi.lang import kernel_impl
 
     own, names_of, context = kernel_impl._get_tree_and_ctx, kernel_impl._get_global_vars, kernel_impl.ASTTransformerContext
@@ -58,7 +60,7 @@ def trees():
 
 
 def nodes():
-    """The method that builds a kind of node is looked up once, and no position of any."""
+    """Patch: look up the method that builds a kind of node once, and no positions."""
     from taichi.lang.ast.ast_transformer import ASTTransformer
     from taichi.lang.ast.ast_transformer_utils import ASTTransformerContext, Builder
     from taichi.lang.impl import PyTaichi
@@ -80,7 +82,7 @@ def nodes():
 
 
 def expressions():
-    """Make expressions, variables and whole numbers directly, without the source places for messages."""
+    """Patch: make expressions, variables and whole numbers directly, without source positions for messages."""
     from taichi.lang import expr, impl
 
     core, Expr = impl._ti_core, expr.Expr

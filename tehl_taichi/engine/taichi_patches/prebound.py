@@ -1,4 +1,4 @@
-"""Launches of kernels with fixed arguments, which cost a few microseconds instead of some 40 an array; and their timing."""
+"""Launches of kernels with fixed arguments, at a few microseconds instead of about 40 per array; and their timing."""
 
 import contextlib
 import functools
@@ -11,12 +11,12 @@ from tehl_taichi.engine import runtime
 
 
 def bind(kernel, *args):
-    """A launch of `kernel` with these very arguments, to be called without any, as often as wanted.
+    """A launch of `kernel` with these arguments, callable without any, as often as wanted.
 
-    Arrays are bound by address: they must stay alive (they are held here) and their contents may change. Taichi's own
-    call inspects every argument again, some 40 us an array, more than most kernels run; here the argument record is made
-    once. Where the pinned Taichi's internals are not found, the launch is the plain call; and on a graphics card, which puts
-    addresses of its own into the record.
+    Arrays are bound by address: they are held here and their contents may change. Taichi's own call inspects every argument
+    again, about 40 us per array, more than most kernels run; here the argument record is made once. If the internals of the
+    pinned Taichi are not found, the launch is the plain call; also on a graphics card, which writes its own addresses into the
+    record.
     """
     global _binding
     started = time.perf_counter()
@@ -31,7 +31,9 @@ def bind(kernel, *args):
 
 @contextlib.contextmanager
 def _uncollected():
-    """No search for garbage while a kernel is traced, which makes a hundred thousand objects: 0.2 of the 4 s of a start."""
+    """Context manager: no garbage collection while a kernel is traced, which makes a hundred thousand objects: 0.2 of the 4 s
+    of a start.
+    """
     collects = gc.isenabled()
     gc.disable()
     try:
@@ -42,7 +44,7 @@ def _uncollected():
 
 
 class Carriers:
-    """Launches that copy between a field and an array, bound at their first use (an unbound one costs 40 us an array)."""
+    """Launches that copy between a field and an array, bound at their first use (an unbound one costs 40 us per array)."""
 
     def __init__(self):
         self.bound = {}
@@ -66,7 +68,7 @@ _binding = 0.0  # s spent in `bind`
 
 
 def binding_seconds():
-    """Time (s) spent so far on tracing and compiling bound kernels, or on finding them in the cache."""
+    """Time (s) spent so far on tracing and compiling bound kernels, or loading them from the cache."""
     return _binding
 
 
@@ -75,7 +77,7 @@ _bytes_of = None
 
 
 def watch_launches(bytes_of):
-    """The dictionary {kernel: [launches, seconds, bytes]} that all launches bound from now on are counted in.
+    """Dictionary {kernel: [launches, seconds, bytes]} that counts all launches bound from now on.
 
     bytes_of(kernel, args): bytes that one launch moves.
     """

@@ -1,9 +1,9 @@
-"""Loops inside of kernels, so that LLVM does not unroll them: it would make up to eight copies of each, and a rest, and then
-tries every address in them for a cheaper one (loop strength reduction), at every start of a program.
+"""Loops inside kernels that LLVM does not unroll: it would make up to eight copies of each, and a remainder, and then try
+cheaper addresses for all of them (loop strength reduction), at every start of a program.
 
-LLVM unrolls loops whose count it knows, so these advance by a step that it does not know: one plus a field that holds zero.
-`llc -O3` on the cached code of the linear solve 1.72 -> 0.75 s; the first step of a warm isothermal run 6.0 -> 2.7 s, with
-temperatures 10 -> 5.5 s; nothing cached 20 -> 8 and 29 -> 16 s. Kernels are as fast, that of the energy faster (12.3 -> 9 ms).
+LLVM unrolls loops with a known count, so these advance by an unknown step: one plus a field that holds zero. `llc -O3` on the
+cached code of the linear solve 1.72 -> 0.75 s; the first step of a warm isothermal run 6.0 -> 2.7 s, with temperatures 10 ->
+5.5 s; without cache 20 -> 8 and 29 -> 16 s. Kernels are as fast, that of the energy faster (12.3 -> 9 ms).
 """
 
 import ast
@@ -17,8 +17,9 @@ _depth = 0  # loops that are open now in the kernel that is traced; the outermos
 
 
 def keep_rolled():
-    """From now on, for kernels of the program that was just started. Raises AttributeError, ImportError or AssertionError where
-    Taichi looks otherwise than expected: then nothing is changed."""
+    """Keep the loops of all further kernels of the program rolled. Raises AttributeError, ImportError or AssertionError,
+    without any change, if Taichi differs from the expected version.
+    """
     from taichi.lang import impl
     from taichi.lang.ast.ast_transformer import ASTTransformer
 
@@ -37,7 +38,7 @@ def keep_rolled():
 
 @contextmanager
 def _deeper():
-    """Whether this loop is the outermost."""
+    """Context manager: count the depth of loops; gives whether this loop is the outermost."""
     global _depth
     _depth += 1
     try:
@@ -47,7 +48,7 @@ def _deeper():
 
 
 def _while(ctx, node, nothing):
-    """for NAME in range(...) as: NAME = begin - step; while NAME < end - step: NAME += step; ..."""
+    """Build `for NAME in range(...)` as: NAME = begin - step; while NAME < end - step: NAME += step; ..."""
     from taichi.lang import expr, impl
     from taichi.lang.ast.ast_transformer import build_stmt, build_stmts
 

@@ -1,7 +1,7 @@
 """Fatigue criteria, one file each: a new file here is a new choice of `fatigue.criterion` (see `criterion`).
 
-A criterion is a pointwise function of the stresses on a plane; `fatigue` finds the plane where it is largest. May import
-`engine.pointwise` and `values`; scenes are unknown here, and taichi is not needed outside kernels.
+A criterion is a pointwise function of the stresses on a plane; `fatigue` finds the plane with the largest value. May import
+`engine.pointwise` and `values`; criteria know no scenes, and need taichi only in kernels.
 """
 
 import sys
@@ -13,7 +13,7 @@ CRITERIA = collect(sys.modules[__name__], Criterion)
 
 
 def sensitivities():
-    """Text: the stress to which kappa is the sensitivity, for each criterion."""
+    """Text of the meaning of kappa for each criterion."""
     names_of = {}
     for name, criterion in CRITERIA.items():
         names_of.setdefault(criterion.sensitivity, []).append(name)

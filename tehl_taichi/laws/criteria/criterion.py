@@ -1,4 +1,4 @@
-"""The entry of a fatigue criterion."""
+"""Entry type of fatigue criteria."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,15 +13,17 @@ TIED = 1e-9  # relative difference of shear amplitudes that are one
 
 @dataclass(frozen=True, kw_only=True)
 class Criterion(Entry):
-    """value(tau, normal, mean, kappa): the stress (Pa) that is compared with the fatigue limit, never smaller where one of the
-    first three is larger; for numbers, arrays and in kernels (arithmetic and the functions of `engine.pointwise`).
+    """A fatigue criterion.
+
+    value(tau, normal, mean, kappa): stress (Pa) to compare with the fatigue limit; it never decreases with any of the first
+    three; for numbers, arrays and in kernels (arithmetic and the functions of `engine.pointwise`).
 
     tau: shear amplitude of a plane, the radius of the smallest circle around its shear path; normal: its largest normal stress;
-    mean: the largest mean stress. With chord: tau is half the longest chord of the path. With momentary: all three are those of
-    one moment (tau: distance from the circle's centre), and the worst moment counts. With sheared: the plane is that of the
-    largest tau, of planes with the same tau that of the largest normal stress.
-    sensitivity: what kappa is the sensitivity to; constants(torsion/bending):
-    (kappa, limit/torsion) at which value is the limit for both fatigue limits, for ratios between least and most.
+    mean: the largest mean stress. chord: tau is half the longest chord of the path. momentary: all three belong to one moment
+    (tau: distance from the circle's centre), and the worst moment counts. sheared: the plane is that of the largest tau; of
+    planes with equal tau the one with the largest normal stress. sensitivity: text of the stress to which kappa is the
+    sensitivity; constants(torsion/bending): (kappa, limit/torsion) at which value is the limit for both fatigue limits, for
+    ratios between least and most.
     """
 
     value: Callable
@@ -35,18 +37,18 @@ class Criterion(Entry):
 
     @property
     def falls(self):
-        """Whether fewer moments never give more: not where the plane, or the circle's centre, is another one then."""
+        """Whether fewer moments never increase the value; false if they may select another plane or circle centre."""
         return not (self.sheared or self.momentary)
 
     @property
     def outer(self):
-        """Whether moments that lie inside the circle, and have not the largest normal stress, change nothing."""
+        """Whether moments inside the circle, without the largest normal stress, have no effect."""
         return not (self.chord or self.momentary)
 
     def from_limits(self, bending, torsion):
         """(kappa, sigma_eF) from the fatigue limits in fully reversed bending and torsion (Pa).
 
-        Raises SceneError where the criterion fits no material of such limits.
+        Raises SceneError if the criterion fits no material with such limits.
         """
         if self.constants is None:
             raise SceneError(f"{self.name} cannot derive kappa and sigma_eF from fatigue limits: give kappa and endurance")
@@ -58,12 +60,12 @@ class Criterion(Entry):
         return kappa, torsion * factor
 
     def in_bending(self, S, kappa):
-        """Its stress (Pa) in uniaxial tension and pressure of amplitude S, over planes that turn away from the pull."""
+        """Value (Pa) in uniaxial tension-compression of amplitude S, over all plane angles."""
         np, angles = _planes()
         return self._worst(0.5 * S * np.sin(2 * angles), S * np.cos(angles) ** 2, S / 3, kappa)
 
     def in_torsion(self, S, kappa):
-        """Value in pure shear of amplitude S, over planes that turn away from its direction."""
+        """Value (Pa) in pure shear of amplitude S, over all plane angles."""
         np, angles = _planes()
         return self._worst(S * np.abs(np.cos(2 * angles)), S * np.sin(2 * angles), 0.0, kappa)
 
@@ -73,7 +75,7 @@ class Criterion(Entry):
 
 
 def _planes():
-    """numpy (only here: `tehl --help` names the criteria), and the angles of the planes."""
+    """(numpy, angles of the planes); numpy is imported here only, because `tehl --help` lists the criteria."""
     import numpy as np
 
     return np, np.linspace(0.0, np.pi / 2, ANGLES)

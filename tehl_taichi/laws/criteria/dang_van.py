@@ -5,12 +5,12 @@ from tehl_taichi.values.registry import Checked
 
 
 def value(tau, normal, mean, kappa):
-    """Shear from the circle's centre + kappa (mean stress of that moment)."""
+    """Distance from the circle's centre + kappa (mean stress of that moment)."""
     return tau + kappa * mean
 
 
 def constants(ratio):
-    """kappa and limit from f = b/2 + kappa b/3 in bending and t in torsion."""
+    """kappa and limit, from f = b/2 + kappa b/3 in bending and t in torsion."""
     return 3 * ratio - 1.5, 1.0
 
 

@@ -12,7 +12,7 @@ def value(tau, normal, mean, kappa):
 
 
 def constants(ratio):
-    """kappa and limit from f = (b/2)(kappa + sqrt(1 + kappa^2)) in bending and t sqrt(1 + kappa^2) in torsion."""
+    """kappa and limit, from f = (b/2)(kappa + sqrt(1 + kappa^2)) in bending and t sqrt(1 + kappa^2) in torsion."""
     excess = 2 * ratio - 1
     kappa = excess / math.sqrt(1 - excess**2)
     return kappa, math.sqrt(1 + kappa**2)

@@ -6,7 +6,7 @@ from tehl_taichi.values.registry import Checked
 
 
 def constants(ratio):
-    """kappa and limit from f = (1 + kappa) b/2 in bending and t in torsion."""
+    """kappa and limit, from f = (1 + kappa) b/2 in bending and t in torsion."""
     return 2 * ratio - 1, 1.0
 
 

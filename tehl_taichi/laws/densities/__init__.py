@@ -1,6 +1,6 @@
-"""Density laws, a file each: a new file here is a new choice of `oil.density`.
+"""Density laws, one file each: a new file here is a new choice of `oil.density`.
 
-Over rho_0, the density at p = 0 and 40 deg C; p in Pa, Gamma in deg C. May import what `laws` may.
+Densities are relative to rho_0, at p = 0 and 40 deg C; p in Pa, Gamma in deg C. May import what `laws` may.
 """
 
 from tehl_taichi.values.quantity import quantity

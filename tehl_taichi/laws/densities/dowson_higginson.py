@@ -23,12 +23,12 @@ def expansion(oil, p, Gamma):
 
 @pointwise
 def expansivity(oil, p, Gamma):
-    """beta over that factor."""
+    """Expansivity: beta over that factor, 1/K."""
     return oil.beta0 * exp(-oil.beta_c * p) / expansion(oil, p, Gamma)
 
 
 def refused(oil, Gamma, p):
-    """Its factor of temperature must leave something."""
+    """Reason if the temperature factor falls too low; "" otherwise."""
     left = expansion(oil, 0.0, Gamma)
     return "" if oil.expansion == "never" or left >= SPARE else (
         f"oil.beta0 = {oil.beta0:g} 1/K leaves {left:.3g} of the density at the inlet temperature of {Gamma:g} deg C; allowed: "

@@ -1,4 +1,4 @@
-"""Tait's equation of state: density that continues rising where Dowson & Higginson's form stands still."""
+"""Tait's equation of state: unlike Dowson & Higginson's form, the density rises without a limit."""
 
 import math
 
@@ -13,14 +13,14 @@ PEAK = 5.0  # times the Hertz pressure: up to there a volume must be left
 
 @pointwise
 def compressed(oil, p, Gamma):
-    """Volume over that at p = 0 and the same temperature: 1 - ln(1 + (1 + K1) p/K)/(1 + K1), K = K00 exp(-beta_K T), T in K."""
+    """Volume relative to p = 0 at the same temperature: 1 - ln(1 + (1 + K1) p/K)/(1 + K1), K = K00 exp(-beta_K T), T in K."""
     K = oil.tait_K00 * exp(-oil.tait_beta_K * (Gamma + 273.15))
     return 1 - log(1 + (1 + oil.tait_K1) * p / K) / (1 + oil.tait_K1)
 
 
 @pointwise
 def compression(oil, p):
-    """rho/rho_0 at 40 deg C."""
+    """Density rho/rho_0 at 40 deg C."""
     return 1 / compressed(oil, p, 40.0 + 0.0 * p)
 
 
@@ -32,15 +32,16 @@ def expansion(oil, p, Gamma):
 
 @pointwise
 def expansivity(oil, p, Gamma):
-    """d ln V/d Gamma: of V at p = 0, less what the softer oil gives way (the latter wins above 200 deg C and 1 GPa, where K
-    is a continuation of what was measured)."""
+    """Derivative d ln V/d Gamma: of V at p = 0, minus the effect of the softer oil (which dominates above 200 deg C and 1 GPa,
+    where K is extrapolated).
+    """
     x = (1 + oil.tait_K1) * p / (oil.tait_K00 * exp(-oil.tait_beta_K * (Gamma + 273.15)))
     softer = oil.tait_beta_K / (1 + oil.tait_K1) * x / (1 + x) / compressed(oil, p, Gamma)
     return oil.tait_a_V / (1 + oil.tait_a_V * (Gamma - 40)) - softer
 
 
 def refused(oil, Gamma, p):
-    """The law must leave some volume at the largest pressures that a feature makes."""
+    """Reason if no volume is left at the largest pressures that a feature causes; "" otherwise."""
     left = compressed(oil, PEAK * p, max(Gamma, 40.0))
     return "" if left >= SPARE else (
         f"oil.tait_K00 = {oil.tait_K00:g} Pa with tait_beta_K = {oil.tait_beta_K:g} 1/K and tait_K1 = {oil.tait_K1:g} leaves "

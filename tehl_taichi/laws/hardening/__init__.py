@@ -1,6 +1,6 @@
-"""Hardening of steel, one file each: a new file here is a new choice of `bodies.X.hardening`.
+"""Hardening laws of steel, one file each: a new file here is a new choice of `bodies.X.hardening`.
 
-A law gives the flow stress by the yield stress and the plastic strain that a cell has had. May import `values`.
+A law gives the flow stress from the yield stress and the accumulated plastic strain. May import `values`.
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""The entry of a hardening law."""
+"""Entry type of hardening laws."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,6 +8,8 @@ from tehl_taichi.values.registry import Entry
 
 @dataclass(frozen=True, kw_only=True)
 class HardeningLaw(Entry):
-    """flow_stress(yield_stress, strain): Pa, of arrays; strain: equivalent plastic strain, from 0 on, never falling with it."""
+    """flow_stress(yield_stress, strain): Pa, for arrays; strain: equivalent plastic strain >= 0; the result never decreases
+    with it.
+    """
 
     flow_stress: Callable

@@ -1,6 +1,6 @@
 """Swift's law with the numbers of a through-hardened bearing steel.
 
-It hardens from the first flow on, so its yield stress is a 0.2 % proof stress: 0.57 of it is where it first flows.
+It hardens from the first yielding on, so its yield stress is a 0.2 % proof stress; yielding begins at 0.57 of it.
 """
 
 from tehl_taichi.laws.hardening.hardening_law import HardeningLaw
@@ -11,7 +11,7 @@ PROOF = 2e-3  # plastic strain at which the flow stress is the yield stress
 
 
 def flow_stress(yield_stress, strain):
-    """Pa: yield_stress ((FIRST + strain)/(FIRST + 0.2 %))^EXPONENT."""
+    """Flow stress (Pa): yield_stress ((FIRST + strain)/(FIRST + 0.2 %))^EXPONENT."""
     return yield_stress * ((FIRST + strain) / (FIRST + PROOF)) ** EXPONENT
 
 

@@ -1,4 +1,4 @@
-"""Murakami's limit of steels with inclusions."""
+"""Murakami's fatigue limit of steels with inclusions."""
 
 from tehl_taichi.laws.hardness import rotating_bending
 from tehl_taichi.laws.hardness.relation import HardnessRelation
@@ -8,7 +8,7 @@ SURFACE, INSIDE = 1.43e6, 1.56e6  # of an inclusion that cuts the surface, and o
 
 
 def bending(HV, inclusion, inside):
-    """Limit of a smooth specimen, or less where the inclusion (root of its area, m) decides."""
+    """Limit of a smooth specimen, or the smaller limit by an inclusion (root of its area, m)."""
     of_inclusion = (INSIDE if inside else SURFACE) * (HV + 120) / (inclusion * 1e6) ** (1 / 6)
     return min(rotating_bending.bending(HV), of_inclusion)
 

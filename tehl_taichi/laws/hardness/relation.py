@@ -1,4 +1,4 @@
-"""The entry of a relation between hardness and fatigue limit."""
+"""Entry type of relations between hardness and fatigue limit."""
 
 import functools
 from collections.abc import Callable
@@ -12,11 +12,11 @@ from tehl_taichi.values.registry import Entry
 
 @dataclass(frozen=True, kw_only=True)
 class HardnessRelation(Entry):
-    """One of: findley(HV) gives (kappa, sigma_eF in Pa) of Findley's criterion; bending(HV, inclusion, inside) the limit in
-    reversed bending (Pa), from which sigma_eF follows by any criterion with the kappa of the scene.
+    """A relation. Either findley(HV) gives (kappa, sigma_eF in Pa) of Findley's criterion, or bending(HV, inclusion, inside)
+    the limit in reversed bending (Pa), from which sigma_eF follows for any criterion with the kappa of the scene.
 
-    spread: of what it was fitted to, in words; low, high: HV of that; inclusion: whether bending needs the size (m) of the
-    largest inclusion, which lies `inside` or cuts the surface.
+    spread: of its data, as text; low, high: HV range of the data; inclusion: bending needs the size (m) of the largest
+    inclusion, which lies `inside` or cuts the surface.
     """
 
     spread: str
@@ -27,7 +27,7 @@ class HardnessRelation(Entry):
     inclusion: bool = False
 
     def check(self, fatigue):
-        """Refuse a criterion, or an inclusion, that it does not take. Raises SceneError."""
+        """Refuse a criterion or an inclusion that does not fit the relation. Raises SceneError."""
         if self.findley and fatigue.criterion != "findley":
             raise SceneError(f"fatigue.relation = {self.name!r} gives constants of the criterion findley, not of "
                              f"{fatigue.criterion}; allowed for that: rotating-bending, murakami")
@@ -36,7 +36,7 @@ class HardnessRelation(Entry):
                              "inclusion, in m")
 
     def constants(self, HV, fatigue, kappa, inside):
-        """(kappa, sigma_eF in Pa) at a hardness; fatigue: the section of the scene; kappa: where the relation gives none."""
+        """(kappa, sigma_eF in Pa) at a hardness; fatigue: the section of the scene; kappa: used if the relation gives none."""
         if self.findley:
             return self.findley(HV)
         return kappa, _in_bending(fatigue.criterion, self.bending(HV, fatigue.inclusion, inside), kappa)

@@ -1,4 +1,4 @@
-"""The limit of smooth specimens in rotating bending."""
+"""Fatigue limit of smooth specimens in rotating bending."""
 
 from tehl_taichi.laws.hardness.relation import HardnessRelation
 from tehl_taichi.values.registry import Checked
@@ -7,7 +7,7 @@ SLOPE = 1.6e6  # Pa per HV
 
 
 def bending(HV, inclusion=0.0, inside=False):
-    """Proportional to the hardness."""
+    """Limit proportional to the hardness, Pa."""
     return SLOPE * HV
 
 

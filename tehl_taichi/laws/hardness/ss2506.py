@@ -5,7 +5,7 @@ from tehl_taichi.values.registry import Checked
 
 
 def findley(HV):
-    """Findley limit, linear in the hardness."""
+    """Findley constants, linear in the hardness."""
     return 0.017 + 8.27e-4 * HV, 1e6 * (197.75 + 0.56833 * HV)
 
 

@@ -1,6 +1,6 @@
-"""Shear laws, a file each: a new file here is a new choice of `rheology.law`.
+"""Shear laws, one file each: a new file here is a new choice of `rheology.law`.
 
-Below: numbers that several of them take, and the limit of the shear stress, which solid contact has too. May import what
+Below: numbers that several of them use, and the limit of the shear stress, which also applies to solid contact. May import what
 `laws` may.
 """
 

@@ -28,8 +28,9 @@ def stress(rheology, newtonian, p):
 
 @pointwise
 def rate(rheology, tau):
-    """Newtonian stress over tau_0 at the stress tau over tau_0, and its slope: from both ends of the law, by Newton in
-    logarithms."""
+    """(Newtonian stress over tau_0 at the stress tau over tau_0, its slope), by Newton in logarithms, starting from the
+    asymptotes.
+    """
     n, size = rheology.carreau_n, absolute(tau) + TINY
     log_size = log(size)
     y = log_size + 0.5 * (1 / n - 1) * log(1 + size * size)
@@ -42,9 +43,11 @@ def rate(rheology, tau):
 
 @pointwise
 def summed(rheology, s, r):
-    """Sums over nodes for walls and sliding over tau_0: stress in the middle of the film over tau_0, by Newton from that of oil
-    as thin as the gradient makes it, and means across the film of the rate times z (-1 to 1) and of its slope times 1, z,
-    z^2."""
+    """Sums over nodes across the film, for wall stress s and sliding stress r, both over tau_0.
+
+    Returns the stress in the middle of the film over tau_0 (by Newton from that of oil thinned by the gradient), and means of
+    the rate times z (-1 to 1) and of its slope times 1, z, z^2.
+    """
     n = rheology.carreau_n
     thin = exp(0.5 * (1 - 1 / n) * log(1 + 0.5 * s * s))
     mean = stress(rheology, r * rheology.tau_0 * thin, 0.0) / rheology.tau_0
@@ -63,7 +66,7 @@ def summed(rheology, s, r):
 
 @pointwise
 def flow(rheology, wall, newtonian, p):
-    """Summed across the film (at most 0.4 % from the integral, n = 0.3 and more)."""
+    """Flow from sums across the film (at most 0.4 % from the integral for n >= 0.3)."""
     s, r = maximum(wall / rheology.tau_0, LEAST), newtonian / rheology.tau_0
     mean, N_z, slope, slope_z, slope_zz = summed(rheology, s, r)
     part = 3 * N_z / s

@@ -22,7 +22,9 @@ SMALL, LARGEST = 0.05, 40.0
 
 @pointwise
 def shapes(rheology, wall):
-    """With S = wall/tau_0: 3 (S cosh S - sinh S)/S^3, the flow without sliding; its derivative by ln S; S/sinh S; S coth S."""
+    """Functions of S = wall/tau_0: flow without sliding 3 (S cosh S - sinh S)/S^3; its derivative by ln S; S/sinh S; S
+    coth S.
+    """
     S = minimum(wall / rheology.tau_0, LARGEST)
     s, S2 = maximum(S, SMALL), S * S
     up, down = exp(s), exp(-s)
@@ -37,8 +39,9 @@ def shapes(rheology, wall):
 
 @pointwise
 def flow(rheology, wall, newtonian, p):
-    """Conry, Wang & Cusano 1987: sqrt(1 + x^2) times the flow without sliding, x = (S/sinh S) newtonian/tau_0 = sinh(mean
-    stress/tau_0); less what the latter is more than Newton's."""
+    """Flow by Conry, Wang & Cusano 1987: sqrt(1 + x^2) times the flow without sliding, x = (S/sinh S) newtonian/tau_0 =
+    sinh(mean stress/tau_0), minus the excess of the latter over Newton's.
+    """
     alone, rise, over, coth = shapes(rheology, wall)
     x = over * newtonian / rheology.tau_0
     x2 = x * x
@@ -49,7 +52,7 @@ def flow(rheology, wall, newtonian, p):
 
 @pointwise
 def beyond(rheology, wall, newtonian, p):
-    """Flow without sliding less that of Newton."""
+    """Excess of the flow without sliding over that of Newton."""
     alone, rise, over, coth = shapes(rheology, wall)
     return alone - 1.0, rise, 0.0 * wall, 0.0 * wall
 

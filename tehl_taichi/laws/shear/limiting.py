@@ -16,7 +16,7 @@ def stress(rheology, newtonian, p):
 
 @pointwise
 def flow(rheology, wall, newtonian, p):
-    """Flow of the circular law; both stresses are divided by tau_L, which rises with the pressure."""
+    """Flow by the circular law; both stresses are divided by tau_L, which rises with the pressure."""
     limit = shear_limit(rheology, p)
     part, by_wall, by_newtonian = circular_flow(wall / limit, newtonian / limit)
     return part, by_wall, by_newtonian, -(by_wall + by_newtonian) * rheology.gamma / limit
@@ -39,11 +39,12 @@ MOST = 2.0  # times tau_L: no film comes near it, trial states do
 
 @pointwise
 def beyond(rheology, wall, newtonian, p):
-    """(wall/tau_L)^40 of what sheared oil carries: no wall holds more than tau_L, beyond it the oil slips along both.
+    """Additional flow (wall/tau_L)^40 relative to sheared oil: no wall carries more than tau_L; beyond it the oil slips along
+    both.
 
-    So |grad p| <= 2 tau_L/h (Ståhl & Jacobson 2003), which frozen oil exceeds by a tenth: so sharply limits of shear set in
-    (40: tau_L over the 5 to 10 MPa of Eyring's stress). 100 in its place changes pressures at the exit by 2 %
-    (docs/exit.md). The circular law by itself leaves open what flows then.
+    So |grad p| <= 2 tau_L/h (Ståhl & Jacobson 2003); frozen oil exceeds it by a tenth. The exponent describes how sharply shear
+    limits set in (40: tau_L over the 5 to 10 MPa of Eyring's stress). An exponent of 100 changes pressures at the exit by 2 %
+    (docs/exit.md). The circular law itself does not determine this flow.
     """
     limit = shear_limit(rheology, p)
     s, r = minimum(wall / limit, MOST), newtonian / limit

@@ -1,4 +1,4 @@
-"""The oil without a shear law."""
+"""Oil without a shear law."""
 
 from tehl_taichi.engine.pointwise import pointwise
 from tehl_taichi.laws.law import ShearLaw
@@ -7,7 +7,7 @@ from tehl_taichi.values.registry import Checked
 
 @pointwise
 def stress(rheology, newtonian, p):
-    """The Newtonian stress itself."""
+    """The Newtonian stress, unchanged."""
     return newtonian
 
 
@@ -18,7 +18,7 @@ def flow(rheology, wall, newtonian, p):
 
 @pointwise
 def mean_stress(rheology, wall, newtonian, p):
-    """The gradient has no part in it."""
+    """The Newtonian stress, whatever the pressure gradient."""
     return newtonian
 
 

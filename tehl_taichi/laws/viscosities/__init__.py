@@ -1,6 +1,6 @@
-"""Viscosity laws, a file each: a new file here is a new choice of `oil.viscosity`.
+"""Viscosity laws, one file each: a new file here is a new choice of `oil.viscosity`.
 
-p in Pa, Gamma in deg C, eta in Pa s. Below: numbers and factors that several of them take. May import what `laws` may.
+p in Pa, Gamma in deg C, eta in Pa s. Below: numbers and factors that several of them use. May import what `laws` may.
 """
 
 from tehl_taichi.values.quantity import quantity

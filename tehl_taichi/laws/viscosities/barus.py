@@ -16,7 +16,7 @@ def ln_eta(oil, p, Gamma):
 
 
 def doubted(oil, Gamma, p):
-    """Far up exp(alpha p) is orders of magnitude above what viscometers find."""
+    """Reason for doubt: at high pressure exp(alpha p) exceeds measured viscosities by orders of magnitude."""
     return "" if p <= BARUS.most_p else (
         f"oil.viscosity = barus at a Hertz pressure of {p / 1e9:.2f} GPa is beyond the range of the law, about "
         f"{BARUS.most_p / 1e9:g} GPa")

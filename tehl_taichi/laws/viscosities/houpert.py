@@ -10,13 +10,13 @@ from tehl_taichi.values.registry import Checked
 
 @pointwise
 def warmth(oil, Gamma):
-    """Houpert's factor ((Gamma + 135)/(Gamma_0 + 135))^-S_0."""
+    """Houpert's temperature factor ((Gamma + 135)/(Gamma_0 + 135))^-S_0."""
     return exp(-oil.S0 * log((Gamma + 135) / (oil.Gamma0 + 135)))
 
 
 @pointwise
 def warmed(oil, p, factor):
-    """Roelands with that factor."""
+    """Roelands' law with that factor."""
     ln0 = log(oil.eta0) + 9.67
     Z = oil.alpha * oil.p_r / ln0
     return -9.67 + ln0 * exp(Z * log(1 + p / oil.p_r)) * factor
@@ -29,13 +29,13 @@ def ln_eta(oil, p, Gamma):
 
 
 def refused(oil, Gamma, p):
-    """Roelands' pole lies at ln(eta) = -9.67."""
+    """Reason if eta0 lies below Roelands' pole at ln(eta) = -9.67."""
     return "" if math.log(oil.eta0) + 9.67 > 0 else (
         f"oil.eta0 = {oil.eta0:g} Pa s: Houpert's law needs ln(eta0) + 9.67 > 0; allowed: more than 6.32e-05 Pa s")
 
 
 def _by_hand(S0=1.0):
-    """ln0 2^Z/1.5^S0 - 9.67 with ln0 = ln 0.04 + 9.67 and Z = 4.312/ln0."""
+    """Check value ln0 2^Z/1.5^S0 - 9.67 with ln0 = ln 0.04 + 9.67 and Z = 4.312/ln0."""
     ln0 = math.log(0.04) + 9.67
     return -9.67 + ln0 * 2 ** (4.312 / ln0) / 1.5**S0
 

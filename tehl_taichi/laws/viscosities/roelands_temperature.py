@@ -37,7 +37,7 @@ def ln_eta(oil, p, Gamma):
 
 
 def refused(oil, Gamma, p):
-    """The viscosity must rise with pressure."""
+    """Reason if the viscosity does not rise with pressure."""
     Z = exponent(oil, Gamma)
     return "" if Z > 0 else (
         f"oil.Dz = {oil.Dz:g}, Cz = {oil.Cz:g}: the viscosity does not rise with pressure at the inlet temperature of "

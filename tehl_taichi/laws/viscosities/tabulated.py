@@ -21,7 +21,7 @@ def ln_eta(oil, p, Gamma):
 
 
 def doubted(oil, Gamma, p):
-    """Beyond its end nothing was measured."""
+    """Reason for doubt: the table ends below the Hertz pressure."""
     end = oil.table[-1][0]
     return "" if p <= end else (f"oil.table ends at {end / 1e9:.3g} GPa, the Hertz pressure is {p / 1e9:.3g} GPa: its last "
                                 "slope is continued")

@@ -30,7 +30,7 @@ def ln_eta(oil, p, Gamma):
 
 
 def refused(oil, Gamma, p):
-    """Neither F nor the denominator may fall to 0."""
+    """Reason if F or the denominator falls to 0."""
     for q in (p * n / SAMPLES for n in range(SAMPLES + 1)):
         F = free_volume(oil, q)
         volume = oil.C2 + (Gamma - glass(oil, q)) * F
@@ -42,7 +42,7 @@ def refused(oil, Gamma, p):
 
 
 def doubted(oil, Gamma, p):
-    """Below the glass transition it says nothing."""
+    """Reason for doubt: the law does not hold below the glass transition."""
     return "" if glass(oil, p) <= Gamma else (
         f"oil.viscosity = yasutomi: at the Hertz pressure the glass transition lies at {glass(oil, p):.0f} deg C, above the "
         f"inlet temperature of {Gamma:g} deg C; the law is used beyond its range")

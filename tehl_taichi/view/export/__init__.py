@@ -1,6 +1,6 @@
-"""Stored runs for other tools: tables (CSV), NetCDF, a time series for ParaView (VTK).
+"""Export of stored runs to other tools: tables (CSV), NetCDF, a time series for ParaView (VTK).
 
-A format is a file here that declares a `file_format` entry; `selection` holds the moments and points that were chosen.
+A format is a file here that declares a `file_format` entry; `selection` holds the chosen moments and points.
 """
 
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ __all__ = ["export", "formats"]
 
 def export(of: Any, format: str = "csv", path: str | PathLike | None = None, *, at: float | Sequence[float] = (),
            point: Sequence = (), force: bool = False) -> Path:
-    """As :func:`tehl_taichi.export`."""
+    """Export a run: see :func:`tehl_taichi.export`."""
     from tehl_taichi.disk import user_files
     from tehl_taichi.errors import SceneError
     from tehl_taichi.store.reader import Reader

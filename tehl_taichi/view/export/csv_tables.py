@@ -16,14 +16,14 @@ COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 
 
 def write(reader, folder, places):
-    """Every table that the run has, and those of `places`, into the folder."""
+    """Write every table of the run, and those of `places`, into the folder."""
     for name, table in _tables(reader, places):
         rows = np.column_stack(list(table.values()))
         np.savetxt(folder / f"{name}.csv", rows, DIGITS, ",", header=",".join(map(_cell, table)), comments="", encoding="utf-8")
 
 
 def _tables(reader, places):
-    """(name, {title: column}) of every table."""
+    """Generator of (name, {title: column}) of every table."""
     yield "series", series(reader)
     yield "centreline_steady", centreline(reader, 0)
     window = ZoomWindow.of(reader)
@@ -42,7 +42,7 @@ def _tables(reader, places):
 
 
 def _cell(title):
-    """A title as a cell of the first line: of a foreign store it may be anything."""
+    """Cell of the title line; the title of another program's store may contain any text."""
     text = cell(title)
     return '"' + text.replace('"', '""') + '"' if set(text) & set(',"\n') else text
 
@@ -52,20 +52,20 @@ def _title(reader, name):
 
 
 def series(reader):
-    """Every number of a step over time."""
+    """Table of every scalar over time."""
     names = ["time", *(name for name in reader.names if name != "time")]
     return {_title(reader, name): reader.scalar(name) for name in names}
 
 
 def centreline(reader, n):
-    """Every field along y = 0 of entry n, and its moment."""
+    """Table of every field along y = 0 at entry n, and its moment."""
     row = int(np.argmin(np.abs(reader.y)))
     moment = {_title(reader, name): np.full(reader.x.size, reader.scalar(name)[n]) for name in ("time", "feature_x")}
     return {"x [m]": reader.x, **_of(reader, {name: values[:, row] for name, values in _flat(reader, n).items()}), **moment}
 
 
 def window_centreline(window, n):
-    """Every field of the zoom window along y = 0 at entry n of the run, and its moment."""
+    """Table of every field of the zoom window along y = 0 at entry n of the run, and its moment."""
     reader, row, x = window.store, window.row(0.0), window.columns(n)
     moment = {_title(reader, name): np.full(x.size, reader.scalar(name)[n]) for name in ("time", "feature_x")}
     fields = {f"{name} [{unit(reader, FIRST + name)}]": values[:, row] for name, values in window.fields(n).items()}
@@ -73,8 +73,9 @@ def window_centreline(window, n):
 
 
 def history(reader, x, y):
-    """Every field at a point of surface a (m from the centre of the feature) while it is on the grid. Raises SceneError where
-    it never is."""
+    """Table of every field at a point of surface a (m from the centre of the feature) while it is on the grid. Raises
+    SceneError if it never is.
+    """
     centres = np.nan_to_num(reader.scalar("feature_x"))
     entries = np.flatnonzero((centres + x >= reader.x[0]) & (centres + x <= reader.x[-1]))
     if not entries.size:
@@ -87,7 +88,7 @@ def history(reader, x, y):
 
 
 def _at(reader, fields, x, y):
-    """{name: value} at (x, y), m, linear between the nodes."""
+    """{name: value} at (x, y), m, by linear interpolation."""
     row = np.interp(y, reader.y, np.arange(reader.y.size))
     low = min(int(row), reader.y.size - 1)
     high, part = min(low + 1, reader.y.size - 1), row - low
@@ -96,7 +97,7 @@ def _at(reader, fields, x, y):
 
 
 def result(reader, dims):
-    """The fatigue results of these dimensions over their coordinates, a row for each point; {} where there are none."""
+    """Table of the fatigue results with these dimensions, a row per point; {} without any."""
     names = [name for name, array in reader.metadata.items() if tuple(array["dimension_names"]) == dims and name != dims[0]]
     if not names:
         return {}
@@ -105,7 +106,7 @@ def result(reader, dims):
 
 
 def worst(reader, name):
-    """Stress history of a worst point over the position of the feature, without the last moment, which is unloaded."""
+    """Table of the stress history of a worst point over the position of the feature, without the last, unloaded moment."""
     stress, pa = reader.map(f"{name}_stress")[:-1], unit(reader, f"{name}_stress")
     return {f"feature_x [{unit(reader, f'{name}_x_a')}]": reader.map(f"{name}_x_a")[:-1],
             **{f"sigma_{of} [{pa}]": stress[:, n] for n, of in enumerate(COMPONENTS)}}

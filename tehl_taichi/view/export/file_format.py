@@ -1,4 +1,4 @@
-"""Entry of a file format, and names of its columns."""
+"""Entry type of file formats, and names of their columns."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Format:
-    """name: as --format takes it; says: what it is; ending: of the file or folder that is made; parts: which names the files in
-    that folder have (a regular expression), "" for a single file; chosen: whether `at` and `point` choose what of the run is
-    written; write(reader, path, places): makes the file, or fills the folder."""
+    """A file format. name: value of --format; says: description; ending: of the file or folder; parts: regular expression of
+    the file names in a folder, "" for a single file; chosen: `at` and `point` select the written part of the run; write(reader,
+    path, places): writes the file or fills the folder.
+    """
 
     name: str
     says: str
@@ -18,7 +19,7 @@ class Format:
     chosen: bool = False
 
     def default_path(self, store):
-        """Path beside the store at `store`, named after it."""
+        """Default path, beside the store and named after it."""
         return store.with_name(store.name.removesuffix(".zarr") + self.ending)
 
 
@@ -28,5 +29,5 @@ def unit(reader, name):
 
 
 def flat_fields(reader):
-    """Names of the stored fields over x and y (those across the film have a dimension more)."""
+    """Names of the stored fields over x and y (fields across the film have one more dimension)."""
     return [name for name in reader.stored if reader.metadata[name]["dimension_names"] == ["time", "x", "y"]]

@@ -1,4 +1,4 @@
-"""A stored run as one NetCDF-4 file: every array with its dimensions, units and long name, every attribute of the store."""
+"""NetCDF-4 file of a stored run: every array with its dimensions, units and long name, every attribute of the store."""
 
 import contextlib
 import io
@@ -11,8 +11,9 @@ PACKED = {"zlib": True, "complevel": 1}
 
 
 def write(reader, path, places):
-    """The whole store into the file at `path`; one array at a time is in memory. Raises StoreError without xarray, h5netcdf;
-    OSError where the disk is full."""
+    """Write the whole store into the file at `path`, one array in memory at a time. Raises StoreError without xarray, h5netcdf;
+    OSError if the disk is full.
+    """
     try:
         import h5netcdf
         import h5py  # noqa: F401  xarray's own sentence about it names no extra
@@ -31,14 +32,16 @@ def write(reader, path, places):
 
 
 class _Patient(io.FileIO):
-    """A file that keeps what the disk refuses to its end: HDF5 ends the process where it cannot write while it closes."""
+    """File that keeps data which the disk refuses in memory until it is closed: HDF5 ends the process if a write fails while it
+    closes.
+    """
 
     refused = None
 
     @classmethod
     @contextlib.contextmanager
     def opened(cls, path):
-        """The new file at `path`. Raises OSError, at the end of the block, where the disk did not take all of it."""
+        """Context manager: the new file at `path`. Raises OSError at the end of the block if the disk did not take all data."""
         with cls(path, "x+") as file:
             try:
                 yield file
@@ -55,7 +58,7 @@ class _Patient(io.FileIO):
         return len(data)
 
     def some(self, data):
-        """Write as many of the bytes as the disk takes at once; returns how many. Raises OSError."""
+        """Write as many of the bytes as the disk takes at once; returns their number. Raises OSError."""
         return super().write(data)
 
     def truncate(self, size=None):
@@ -72,7 +75,7 @@ class _Patient(io.FileIO):
 
 
 def _plain(value):
-    """An attribute as NetCDF has it: no true and false."""
+    """Attribute for NetCDF, which has no true and false."""
     return int(value) if isinstance(value, bool) else value
 
 

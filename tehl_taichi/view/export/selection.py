@@ -14,15 +14,16 @@ BEYOND = 0.5  # steps that a position may lie beyond the stored passage: its nea
 
 @dataclass(frozen=True)
 class Selection:
-    """at: {position requested (a): entry of the store nearest to it}; points: (x, y) of surface points, m, x from the centre of
-    the feature (of the contact where nothing passes), y from that of the contact, as in the summary of a fatigue search."""
+    """at: {requested position (a): nearest entry of the store}; points: (x, y) of surface points, m, x from the centre of the
+    feature (without a passage: of the contact), y from that of the contact, as in the summary of a fatigue search.
+    """
 
     at: dict
     points: tuple
 
     @classmethod
     def of(cls, reader, at, point):
-        """Checked against what the store has. Raises SceneError."""
+        """Selection from a store. Raises SceneError for positions and points that it does not have."""
         at, point = plain(at), plain(point)
         at = at if isinstance(at, tuple) else (at,)
         several = isinstance(point, tuple) and all(isinstance(one, tuple) for one in point)

@@ -1,7 +1,7 @@
-"""A stored run for ParaView: passage.pvd, a time series of images over x and y, and the fatigue map around the feature.
+"""ParaView files of a stored run: passage.pvd, a time series of images over x and y, and the fatigue map around the feature.
 
-Written here: the XML of VTK's image data is shorter than what a library would need. Blocks are compressed by zlib and in
-base64 inside their element, so that the files are XML. Source: "VTK File Formats", docs.vtk.org.
+The XML of VTK's image data is written here, which is shorter than the use of a library. Blocks are compressed by zlib and in
+base64 inside their element, so the files are XML. Source: "VTK File Formats", docs.vtk.org.
 """
 
 import base64
@@ -19,8 +19,9 @@ HEAD = 'byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCo
 
 
 def write(reader, folder, places):
-    """An image for each entry, the .pvd that names them with their times (s), fatigue.vti and those of a zoom window where
-    there is one."""
+    """Write an image for each entry, the .pvd with their times (s), fatigue.vti, and the files of a zoom window if there is
+    one.
+    """
     names = [f"step_{step:06d}.vti" for step in reader.scalar("step")]
     for n, name in enumerate(names):
         moment = {_named(reader, key): reader.scalar(key)[n] for key in ("feature_x", "p_max_Pa", "h_min_m")}
@@ -36,7 +37,7 @@ def write(reader, folder, places):
 
 
 def _write_window(reader, window, folder):
-    """An image of the zoom window for each entry of the run that it has, and zoom.pvd, which names them."""
+    """Write an image of the zoom window for each of its entries, and zoom.pvd."""
     names = [f"zoom_{int(reader.scalar('step')[n]):06d}.vti" for n in window.entries]
     for n, name in zip(window.entries, names):
         fields = {_named(reader, FIRST + key): values for key, values in window.fields(n).items()}
@@ -45,14 +46,14 @@ def _write_window(reader, window, folder):
 
 
 def collection(times):
-    """The text of a .pvd: (time, file) of every image."""
+    """Text of a .pvd: (time, file) of every image."""
     parts = "\n".join(f'<DataSet timestep="{float(time)!r}" file="{file}"/>' for time, file in times)
     return (f'{TOP}<VTKFile type="Collection" version="1.0" {HEAD}>\n<Collection>\n{parts}\n</Collection>\n'
             "</VTKFile>\n")
 
 
 def image(x, y, fields, numbers):
-    """The text of a .vti: {name: (nx, ny) array} on the even grid x, y (m) at z = 0, and {name: number}."""
+    """Text of a .vti: {name: (nx, ny) array} on the even grid x, y (m) at z = 0, and {name: number}."""
     extent = f"0 {x.size - 1} 0 {y.size - 1} 0 0"
     steps = " ".join(repr(float(v[-1] - v[0]) / (v.size - 1) if v.size > 1 else 1.0) for v in (x, y))
     points = "\n".join(_array(name, values.T, "") for name, values in fields.items())  # x runs fastest
@@ -73,7 +74,7 @@ def _array(name, values, more):
 
 
 def _named(reader, name):
-    """A name that ends in its unit, which ParaView has no other place for."""
+    """Name with the unit at its end, because ParaView has no other place for it."""
     of = unit(reader, name)
     return name if of == "1" or name.endswith(f"_{of}") else f"{name}_{of}"
 

@@ -7,7 +7,9 @@ from tehl_taichi.view.figures.map_panels import mirrored
 
 
 def centreline_y(page, moments):
-    """Pressure and film along y for several feature positions, each through its largest pressure; a steady one at x = 0."""
+    """Figure of pressure and film along y for several feature positions, each through its largest pressure; a steady one at x =
+    0.
+    """
     store, shown = moments.store, moments.several()
     figure, ((top,), (low,)) = page.figure(2, sharex=True)
     for n, (colour, label) in shown.items():

@@ -1,4 +1,4 @@
-"""A run as a film: GIF with what the `plot` extra brings, MP4 where ffmpeg is available."""
+"""Animation of a run: GIF with the `plot` extra, MP4 if ffmpeg is available."""
 
 import contextlib
 import shutil
@@ -27,7 +27,7 @@ SAMPLES = 5  # frames that the colours of a GIF are taken from
 def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, format: str | None = None, frames: int = FRAMES,
             fps: int = FPS, dpi: int = DPI, width: float = WIDTH, shown: str = "film", force: bool = False,
             progress: Callable[[int, int], None] | None = None) -> Path:
-    """As :func:`tehl_taichi.animate`."""
+    """Write an animation: see :func:`tehl_taichi.animate`."""
     from tehl_taichi.store.store import Store
 
     integer("frames", frames, 2, 2000)
@@ -47,7 +47,7 @@ def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, 
 
 
 def _file(store, out, format, force):
-    """(path, format) of the file to write. Raises SceneError, or StoreError where something is in the way."""
+    """(path, format) of the file to write. Raises SceneError, or StoreError if an existing file is in the way."""
     path = Path(out) if out else store.path.with_name(store.path.name.removesuffix(".zarr"))
     if out and path.is_dir():
         raise StoreError(f"{path} is a folder; --out takes the name of a file")
@@ -62,7 +62,7 @@ def _file(store, out, format, force):
 
 
 def _check(store, shown):
-    """Raise StoreError where there is nothing to animate."""
+    """Raise StoreError if there is nothing to animate."""
     if store.steps < 2:
         raise StoreError(f"{store.path} has only a steady state, so there is no passage to animate; use `tehl plot`")
     if shown == "temperature" and store.scene.isothermal:
@@ -70,7 +70,7 @@ def _check(store, shown):
 
 
 def _with_progress(frames, progress):
-    """Generator of the pictures, which reports each."""
+    """Generator of the pictures; reports each."""
     for done, n in enumerate(frames.entries):
         progress(done, len(frames.entries))
         yield frames.picture(n)
@@ -78,7 +78,7 @@ def _with_progress(frames, progress):
 
 
 def _gif(path, frames, fps, progress, _):
-    """Written as the frames come, all in one set of colours: they must not flicker."""
+    """Write a GIF frame by frame, with one common set of colours so that it does not flicker."""
     from PIL import Image
 
     some = [frames.entries[n] for n in np.linspace(0, len(frames.entries) - 1, SAMPLES).astype(int)]
@@ -91,7 +91,7 @@ def _gif(path, frames, fps, progress, _):
 
 
 def _kept_white(image):
-    """Picture with a white page: of 256 colours, some means of the whole are not quite white."""
+    """Picture with an exactly white page: averaged to 256 colours, white is slightly off."""
     colours = np.array(image.getpalette()).reshape(-1, 3)
     colours[(colours >= NEARLY).all(axis=1)] = 255
     image.putpalette(colours.ravel().tolist())
@@ -99,7 +99,7 @@ def _kept_white(image):
 
 
 def _ffmpeg():
-    """The program. Raises StoreError where there is none."""
+    """Path of ffmpeg. Raises StoreError without it."""
     found = shutil.which("ffmpeg")
     if not found:
         raise StoreError("MP4 needs the program ffmpeg, which was not found; install it, or use --format gif")
@@ -107,7 +107,7 @@ def _ffmpeg():
 
 
 def _mp4(path, frames, fps, progress, ffmpeg):
-    """Pictures go to ffmpeg one by one; Ctrl-C is for us, not for it. Raises StoreError with what it says."""
+    """Send the pictures to ffmpeg one by one; Ctrl-C reaches this process only. Raises StoreError with ffmpeg's message."""
     rows, columns, _ = frames.picture(frames.entries[0]).shape
     raw = f"-f rawvideo -pix_fmt rgb24 -s {columns}x{rows} -r {fps} -i -"
     film = f"-an -vf {EVEN} -pix_fmt yuv420p -movflags +faststart -metadata comment={user_files.PROGRAM} -f mp4"
@@ -123,7 +123,7 @@ def _mp4(path, frames, fps, progress, ffmpeg):
 
 
 def _fed(process, pictures):
-    """Errors that the program prints; it may end before it has seen all."""
+    """Send the pictures to a process; returns its error output. The process may end before it has read all."""
     try:
         for picture in pictures:
             process.stdin.write(picture.tobytes())

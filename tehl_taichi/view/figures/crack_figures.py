@@ -15,14 +15,15 @@ BAND = 60e-6   # m: length of the pits' band along the surface
 
 
 def write_crack(result, title, folder, page=None):
-    """Write the figure of a :class:`tehl_taichi.crack.analysis.CrackResult` into `folder`, as the :class:`FigureStyle` wants
-    it; returns its path. Raises StoreError."""
+    """Write the figure of a :class:`tehl_taichi.crack.analysis.CrackResult` into `folder`, in the format of the
+    :class:`FigureStyle`; returns its path. Raises StoreError.
+    """
     page = page or FigureStyle()
     return page.write(folder, {"crack": lambda: crack_figure(page, result, title)})[0]
 
 
 def crack_figure(page, result, title):
-    """The section above, a panel with K of every side that has a crack below."""
+    """Figure with the section above, and a panel with K for every side with a crack below."""
     from matplotlib.figure import Figure
 
     cracked = [name for name, side in result.sides.items() if side.path.last is not None]
@@ -73,7 +74,7 @@ def _section(page, figure, ax, result):
 
 
 def _lines(ax, name, side, pits):
-    """Trajectory, path, and the band of the pits, which lean with rolling."""
+    """Draw trajectory, path, and the band of the pits, which lean with rolling."""
     mouth, colour = side.start.x * 1e6, COLOURS[name]
     low, high = (np.tan(np.radians(angle)) * BAND * 1e6 for angle in pits)
     ax.fill([mouth, mouth - BAND * 1e6, mouth - BAND * 1e6], [0, low, high], color=palette.GREY, alpha=0.25, lw=0,
@@ -87,7 +88,7 @@ def _lines(ax, name, side, pits):
 
 
 def _history(ax, result, name):
-    """K of the first and of the last length over the feature's position."""
+    """Draw K of the first and of the last length over the feature's position."""
     plane = result.plane
     path, at = result.sides[name].path, plane.centres[:-1] / plane.a
     cracks = [path.last] if path.first is path.last else [path.first, path.last]

@@ -1,4 +1,4 @@
-"""The distribution of the index over rough surfaces: the share of each that exceeds a value."""
+"""Distribution of the index over rough surfaces: share of the surface that exceeds a value."""
 
 from tehl_taichi.fatigue.index_statistics import QUANTILES, exceeded
 from tehl_taichi.view.figures import palette
@@ -7,7 +7,7 @@ TICKS = (0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)  # %
 
 
 def curves(result):
-    """[(label, Fi, share of the surface above it)] of each body that was searched, the worse one first."""
+    """[(label, Fi, share of the surface above it)] of each searched body, the worse one first."""
     several, out = result.other is not None, []
     for name, one in result.by_surface.items():
         if one.Fi is not None and one.passed is not None:
@@ -21,7 +21,7 @@ def shown(result):
 
 
 def distribution_figure(page, found):
-    """Share of the surfaces above an index, with the percentiles of the summary, on a logarithmic axis."""
+    """Figure of the share of the surfaces above an index, with the percentiles of the summary, on a logarithmic axis."""
     figure, axes = page.figure(1, 1, height=2.0 * page.row())
     ax = axes.ravel()[0]
     handles = []

@@ -1,4 +1,4 @@
-"""Figures of a fatigue result: index of the surface and over depth, stress of the worst points, paths on their planes."""
+"""Figures of a fatigue result: index of the surface and over depth, stresses of the worst points, paths on their planes."""
 
 from dataclasses import dataclass, replace
 from functools import partial
@@ -25,8 +25,9 @@ LEAST = 8.0  # cm that a map needs to stand beside another
 
 @dataclass(frozen=True)
 class DrawnLayer:
-    """where: in words; Fi: (x, y); at: its worst point, m; angle: of the critical plane there to the surface, deg, with
-    normal and error of the largest Fi: where they are known; when: moments in words, "" where all count alike."""
+    """A layer of a map. where: text; Fi: (x, y); at: its worst point, m; angle: between the critical plane there and the
+    surface, deg; normal: of that plane; error: of the largest Fi (None: unknown); when: text of the moments, "" if all count.
+    """
 
     where: str
     Fi: Any
@@ -38,7 +39,7 @@ class DrawnLayer:
 
     @property
     def flat(self):
-        """Part of the critical plane's normal in the layer: without any the plane has no trace in it."""
+        """Part of the critical plane's normal in the layer; if zero, the plane has no trace in it."""
         return 0.0 if self.normal is None else float(np.hypot(self.normal[0], self.normal[1]))
 
     @property
@@ -52,7 +53,7 @@ class DrawnLayer:
 
     @property
     def title(self):
-        """Title with its moments, in lines that fit the panel."""
+        """Title with the moments, in lines that fit the panel."""
         return "\n".join([*filter(None, [self.when.replace(" (", "\n(")]), self.legend_text])
 
 
@@ -61,8 +62,9 @@ NAMES = ("fatigue", "fatigue_distribution", "fatigue_depth", "fatigue_point", "f
 
 
 def all_figures(page, found):
-    """{name: function that draws it}; the plain names show the search that decides the verdict. Raises SceneError if the chosen
-    depth was not searched."""
+    """{name: function that draws it}; plain names show the search that decides the verdict. Raises SceneError if the chosen
+    depth was not searched.
+    """
     layers = [_layers(one) for one in found.each]
     figures = {"fatigue": lambda: index_figure(page, found, layers)}
     if distribution_figure.shown(found.result):
@@ -75,7 +77,7 @@ def all_figures(page, found):
 
 
 def _layers(found):
-    """The surface, and the layer below it that is wanted, or the worst where all its points were searched."""
+    """The surface, and the chosen layer below it, or the worst layer whose points were all searched."""
     top = _worst(found, "surface", found.result.Fi, found.summary, found.result.worst)
     below, plane = _searched(found), found.result.index("findley_stress_at_worst_depth")
     if found.depth is None and plane is not None:
@@ -88,7 +90,7 @@ def _layers(found):
 
 
 def _layer(found, depth, Fi):
-    """One depth (m) with its index (x, y): with the worst point where that lies there, else with its own largest."""
+    """Layer at a depth (m) with its index (x, y): with the worst point if that is in it, else with its own largest value."""
     where, deep = f"{depth * 1e6:.3g} µm below", found.summary["below"]
     if np.isclose(depth, deep["depth_m"]):
         return _worst(found, where, Fi, deep, found.result.worst_below)
@@ -116,7 +118,9 @@ def _searched(found):
 
 
 def index_figure(page, found, layers):
-    """Index around the feature in every layer, a row for each of `found.each`; lines where nothing varies across."""
+    """Figure of the index around the feature in every layer, a row for each of `found.each`; lines if nothing varies along
+    y.
+    """
     shown, most = [layer for row in layers for layer in row], len(layers[0])
     if found.one_row:
         return index_lines(page, found, shown)
@@ -136,7 +140,7 @@ def index_figure(page, found, layers):
 
 
 def index_lines(page, found, layers):
-    """Index over x, a line for each layer with its worst point."""
+    """Figure of the index over x, a line for each layer with its worst point."""
     figure, ((ax,),) = page.figure(height=1.6 * page.row())
     for layer, colour in zip(layers, palette.LINES):
         where = ": ".join(filter(None, (layer.when, layer.where)))
@@ -151,7 +155,7 @@ def index_lines(page, found, layers):
 
 
 def index_map(figure, ax, result, layer, beside):
-    """Index of one layer; at its worst point the trace of the critical plane in the layer and its dip."""
+    """Draw the index of one layer; at its worst point the trace of the critical plane and its dip."""
     x, (y, Fi) = result.feature_frame_x, mirrored(result.feature_frame_y * 1e6, layer.Fi)
     image = shade(ax, x * 1e6, y, Fi, cmap=palette.INDEX)
     bar(figure, image, ax, f"Fi, {layer.where}", beside)
@@ -172,7 +176,7 @@ def _mark(ax, x, y):
 
 
 def depth_figure(page, found):
-    """Index in the section under the row of the worst point below the surface, and its largest value over depth."""
+    """Figure of the index in the section below the row of the worst subsurface point, and of its largest value over depth."""
     depth, Fi = found.result.row_depths * 1e6, found.result.index("findley_stress_under_row")
     sizes = dict(height_ratios=(1, 1)) if page.narrow else dict(width_ratios=(3, 2))
     panels, height = ((2, 1), 3.2 * page.row()) if page.narrow else ((1, 2), 2.3 * page.row(2))
@@ -188,7 +192,7 @@ def depth_figure(page, found):
 
 
 def _section(page, figure, ax, found, Fi, depth):
-    """Index (depth, x) on even depths, with its worst point."""
+    """Draw the index (depth, x) at even depths, with its worst point."""
     x, deep, even = found.result.feature_frame_x * 1e6, found.summary["below"], np.linspace(0, depth[-1], EVEN)
     shown = np.stack([np.interp(even, depth, column) for column in Fi.T])
     bar(figure, shade(ax, x, even, shown, cmap=palette.INDEX), ax, f"Fi at y = {deep['y_m'] * 1e6:.0f} µm", not page.narrow)
@@ -211,7 +215,7 @@ def _over_depth(ax, found, Fi, depth):
 
 
 def worst_points(page, found):
-    """Critical points at the surface and below it: see :func:`worst_point`."""
+    """Figure of the critical points at and below the surface: see :func:`worst_point`."""
     shown = [("critical point at the surface", found.result.worst)]
     if found.result.worst_below:
         shown.append((f"critical point below, {micrometres(found.summary['below']['depth_m'])} µm", found.result.worst_below))
@@ -226,7 +230,9 @@ def worst_points(page, found):
 
 
 def worst_point(left, right, title, worst, a):
-    """Largest principal stress over the feature's position, and the shear path on the critical plane with its circle."""
+    """Draw the largest principal stress over the feature's position, and the shear path on the critical plane with its
+    circle.
+    """
     from matplotlib.patches import Circle
 
     position, stress = worst["x_a"][:-1] / a, worst["stress"]

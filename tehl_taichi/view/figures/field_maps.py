@@ -1,4 +1,4 @@
-"""Maps over x, y of one moment, in their true proportions, with colour bars that say where they are cut."""
+"""Maps over x, y of one moment, in true proportions; arrows on colour bars mark values beyond their ends."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from tehl_taichi.view.figures.moments import INSIDE
 
 
 def maps(page, moments):
-    """Pressure and film."""
+    """Figure with maps of pressure and film."""
     n = moments.one()
     f = moments.store.fields(n, ("pressure", "film"))
     shown = panels(page, moments, 2)
@@ -25,7 +25,7 @@ def maps(page, moments):
 
 
 def film_ends(moments, film):
-    """(smallest, largest) of a film (x, y) inside the dry contact: the range of its colours, without the gap outside."""
+    """(smallest, largest) of a film (x, y) inside the dry contact: colour range without the gap outside."""
     s = Scales.of(moments.store.scene)
     across = 0.0 if s.kind == "line" else moments.store.y / s.b
     inside = moments.x[:, None] ** 2 + across**2 < INSIDE**2
@@ -38,7 +38,9 @@ def ends(fields):
 
 
 def temperature_maps(page, moments):
-    """Mid-film, and both surfaces in a scale of colours of their own: the film is far hotter."""
+    """Figure with maps of mid-film and both surfaces; the surfaces have a separate colour scale, since the film is far
+    hotter.
+    """
     n = moments.one()
     f = moments.store.fields(n, [name for name, *_ in SURFACES])
     panel = panels(page, moments, 3)

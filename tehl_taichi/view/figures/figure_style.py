@@ -1,4 +1,4 @@
-"""Style of figures: file format, dots per inch and width of the column; text and lines follow from the width."""
+"""Figure style: file format, resolution and width; sizes of text and lines follow from the width."""
 
 import os
 import textwrap
@@ -31,10 +31,10 @@ SAID = {"png": {"Software": user_files.PROGRAM}, "pdf": {"Creator": user_files.P
 
 @dataclass(frozen=True)
 class FigureStyle:
-    """format: png, pdf or svg; dpi: dots per inch, of the maps inside pdf and svg too; width: of the figure, cm; force:
-    whether existing figures of ours are replaced.
+    """Style of figures. Raises SceneError for impossible values.
 
-    Raises SceneError for what no figure can have.
+    format: png, pdf or svg; dpi: dots per inch, also of the maps inside pdf and svg; width: cm; force: replace existing figures
+    of ours.
     """
 
     format: str = "png"
@@ -61,23 +61,23 @@ class FigureStyle:
 
     @property
     def narrow(self):
-        """Whether panels stand below each other that stand side by side on a wide page."""
+        """Whether panels are placed below each other, not side by side as on a wide page."""
         return self.width < NARROW
 
     def row(self, columns=1):
-        """Height of a row with so many panels of lines, inches: the narrower, the less flat."""
+        """Height (inches) of a row with `columns` panels of lines; narrower panels are less flat."""
         grown = max(self.width / WIDTH, 1.0)
         return 0.93 * grown * (self.inches / columns / grown) ** 0.5
 
     def figure(self, rows=1, columns=1, height=None, equal=False, **options):
-        """(figure, axes as an array of rows); height: inches (default: of panels of lines); equal: the panels have equal scales
-        of x and y, and the height becomes what they need."""
+        """(figure, axes as an array of rows). height: inches (default: for panels of lines); equal: panels have equal scales of
+        x and y, and the height follows from them.
+        """
         figure = self._empty(height or self.row(columns) * rows + 0.06 * self.text, equal)
         return figure, figure.subplots(rows, columns, squeeze=False, **options)
 
     def mosaic(self, rows, height, **options):
-        """(figure, {name: axes}) of panels that may extend over several columns; rows: of names, as matplotlib takes them;
-        height: inches."""
+        """(figure, {name: axes}) of panels that may span several columns; rows: names, as for matplotlib; height: inches."""
         figure = self._empty(height, False)
         return figure, figure.subplot_mosaic(rows, **options)
 
@@ -89,12 +89,13 @@ class FigureStyle:
         return figure
 
     def title(self, figure, text):
-        """A title that is not wider than the page."""
+        """Set a title that is not wider than the page."""
         figure.suptitle(textwrap.fill(text, int(self.inches * 72 / (1.1 * WIDEST * self.text))))
 
     def legend(self, figure, handles=None, **options):
-        """Legend of lines (default: of the first panel), below the panels, where it covers nothing, as wide as there is room
-        for; a long one makes the figure higher."""
+        """Add a legend of lines (default: of the first panel) below the panels, as wide as possible; a long one makes the
+        figure higher.
+        """
         handles = handles or figure.axes[0].get_legend_handles_labels()[0]
         for handle in handles:
             if handle.get_label().startswith("_"):  # which matplotlib would leave out
@@ -105,7 +106,7 @@ class FigureStyle:
         figure.set_figheight(figure.get_figheight() + max(rows - ROWS, 0) * LINE * self.text / 72)
 
     def style(self):
-        """The context in which figures are drawn and saved. Raises StoreError where matplotlib is not installed."""
+        """Context manager in which figures are drawn and saved. Raises StoreError if matplotlib is not installed."""
         small, line = 0.9 * self.text, 0.14 * self.text
         return drawing().rc_context({
             "text.parse_math": False, "text.usetex": False,  # a name with $ in it is a name
@@ -124,8 +125,7 @@ class FigureStyle:
         return [self.save(draw, path) for draw, path in zip(figures.values(), paths)]
 
     def check_all(self, folder, names):
-        """The paths of figures of these names in `folder`. Raises StoreError where they cannot be drawn or may not be
-        written."""
+        """Paths of figures with these names in `folder`. Raises StoreError if they cannot be drawn or may not be written."""
         drawing()
         links.refuse_itself(folder)
         check_folder(folder)
@@ -135,11 +135,11 @@ class FigureStyle:
         return paths
 
     def check(self, path, of=None):
-        """Raises StoreError where no figure may be written to `path`; of: as of :func:`tehl_taichi.disk.user_files.check`."""
+        """Raise StoreError if no figure may be written to `path`; of: see :func:`tehl_taichi.disk.user_files.check`."""
         user_files.check(path, self.force, self.format, of=of)
 
     def save(self, draw, path, of=None):
-        """Write the figure that `draw()` makes to `path`, whose suffix sets the format; returns it. Raises StoreError."""
+        """Write the figure of `draw()` to `path`, whose suffix sets the format; returns the path. Raises StoreError."""
         self.check(path, of)
         with self.style():
             figure = self._finished(draw)
@@ -148,7 +148,7 @@ class FigureStyle:
         return path
 
     def drawn(self, draw):
-        """The matplotlib Figure that `draw()` makes, in this style. Raises StoreError without matplotlib."""
+        """Matplotlib Figure of `draw()` in this style. Raises StoreError without matplotlib."""
         with self.style():
             return self._finished(draw)
 
@@ -156,14 +156,14 @@ class FigureStyle:
         return self.fitted(spelled(draw()))
 
     def fitted(self, figure):
-        """The figure, without the height that its panels leave empty where their scales are equal."""
+        """The figure without the empty height that panels with equal scales leave."""
         if getattr(figure, "to_fit", False):
             figure.get_layout_engine().execute(figure)
             figure.set_size_inches(self.inches, figure.get_tightbbox().height + 0.02 * self.text)
         return figure
 
     def of_file(self, path):
-        """(page, path) that agree: the format of the path's suffix, or the suffix of the format. Raises SceneError."""
+        """(page, path) that agree: format of the path's suffix, or suffix of the format. Raises SceneError."""
         path = Path(path)
         if not path.suffix:
             return self, path.with_name(f"{path.name}.{self.format}")
@@ -178,7 +178,7 @@ def _cycle():
 
 
 def drawing():
-    """matplotlib. Raises StoreError where it is not installed."""
+    """The matplotlib module. Raises StoreError if it is not installed."""
     try:
         import matplotlib
     except ImportError:
@@ -187,7 +187,7 @@ def drawing():
 
 
 def spelled(figure):
-    """The figure with the letters spelled that do not print, as names of files may have them."""
+    """The figure with non-printing letters (of file names) spelled."""
     from matplotlib.text import Text
 
     for text in figure.findobj(Text):
@@ -197,19 +197,19 @@ def spelled(figure):
 
 
 def default_folder(path):
-    """Default folder of the figures of the store at `path`."""
+    """Default folder for the figures of the store at `path`."""
     return path.with_suffix("") if path.suffix else path.with_name(f"{path.name}-figures")
 
 
 def check_folder(folder):
-    """Raises StoreError where no folder of that name can be made."""
+    """Raise StoreError if the folder cannot be made."""
     there = next(path for path in (Path(folder).absolute(), *Path(folder).absolute().parents) if os.path.lexists(path))
     if not there.is_dir():
         raise StoreError(f"cannot put figures into {folder}: {there} is not a folder; choose another one")
 
 
 def made(folder):
-    """The folder of that name, made if need be. Raises StoreError."""
+    """Make the folder if necessary; returns its path. Raises StoreError."""
     try:
         Path(folder).mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -1,4 +1,4 @@
-"""The figure of results that lie in a folder of their own, as a flank: where it may be drawn and written."""
+"""Figure of results in a folder of their own, such as a flank."""
 
 import os
 
@@ -7,8 +7,9 @@ from tehl_taichi.view.figures.figure_style import drawing, made
 
 
 def check(folder, page, name):
-    """Raises StoreError where no figure could be drawn, nor written as `name` into the folder (None: a new one) of results to
-    come."""
+    """Raise StoreError if a figure could not be drawn, or not be written as `name` into the folder of future results (None: a
+    new one).
+    """
     drawing()
     if folder is not None and os.path.lexists(folder):
         links.refuse(folder)
@@ -16,7 +17,9 @@ def check(folder, page, name):
 
 
 def write(folder, path, page, draw):
-    """Write what draw(page) gives for the results in `folder`, as the :class:`FigureStyle` says; returns the path."""
+    """Write the figure of draw(page) for the results in `folder`, in the format of the :class:`FigureStyle`; returns the
+    path.
+    """
     page, path = page.of_file(path)
     if os.path.realpath(path.parent) == os.path.realpath(folder):
         links.refuse(path.parent)

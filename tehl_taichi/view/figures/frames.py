@@ -1,4 +1,4 @@
-"""The pictures of an animation: pressure, film and temperatures along the centreline and a map, on axes that do not move."""
+"""Pictures of an animation: pressure, film and temperatures along the centreline and a map, on fixed axes."""
 
 from typing import Any
 
@@ -24,8 +24,8 @@ OVER = 1.05  # of the largest value: upper end of an axis
 class Frames:
     """Frames of the entries of a run; :meth:`picture` draws one.
 
-    page: a :class:`FigureStyle`; moments: of the run; entries: all that will be drawn: the axes have room for each of them;
-    shown: a key of SHOWN, or None for no map.
+    page: a :class:`FigureStyle`; moments: of the run; entries: all entries to draw, which set the range of the axes; shown: a
+    key of SHOWN, or None for no map.
     """
 
     def __init__(self, page, moments, entries, shown):
@@ -42,7 +42,7 @@ class Frames:
         self._freeze()
 
     def _laid_out(self):
-        """(figure, {name: axes}): the map below the lines, or beside them where it is tall."""
+        """(figure, {name: axes}): the map below the lines, or beside them if it is tall."""
         from matplotlib.figure import Figure
 
         left, right = self.moments.window
@@ -56,7 +56,7 @@ class Frames:
         return figure, figure.subplot_mosaic(rows, height_ratios=heights)
 
     def _limits(self):
-        """({field: least}, {field: largest}) of all entries; of the film as much as there is in the contact."""
+        """({field: smallest}, {field: largest}) of all entries; of the film inside the contact."""
         ends: dict[str, list[float]] = {name: [] for name in self.fields}
         for n in self.entries:
             finer = self.finer.fields(n, self.fields) if self.finer and n in self.finer else {}
@@ -67,7 +67,7 @@ class Frames:
         return {name: min(values) for name, values in ends.items()}, top
 
     def _lines(self, name):
-        """Lines of a panel, still empty, as (line, field, factor)."""
+        """Empty lines of a panel, as (line, field, factor)."""
         ax, (label, factor, fields) = self.axes[name], self.panels[name]
         colour = palette.LINES[list(PANELS).index(name)]
         lines = [(ax.plot([], [], style, color=colour, label=text, animated=True)[0], field, factor)
@@ -96,7 +96,7 @@ class Frames:
         return image, field, factor
 
     def _freeze(self):
-        """Draw what stays, once, with room for the title."""
+        """Draw the constant parts once, with space for the title."""
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
         self.title = self.figure.suptitle(self._says(self.entries[-1]))
@@ -111,7 +111,7 @@ class Frames:
         return f"{self.store.scene.name}: {self.moments.says(n)}"
 
     def picture(self, n):
-        """Entry n as an array (rows, columns, 3) of bytes."""
+        """Picture of entry n as an array (rows, columns, 3) of bytes."""
         f = self.store.fields(n, self.fields)
         self.canvas.restore_region(self.still)
         for place in self.places:
@@ -133,7 +133,7 @@ class Frames:
 
 
 class FrameWindow:
-    """The zoom window of a run in its frames: thick lines over those of the run, its part of the map finer."""
+    """Zoom window of a run in its frames: thick lines over those of the run, a finer part of the map."""
 
     def __init__(self, frames, window):
         self.frames, self.window = frames, window
@@ -142,7 +142,7 @@ class FrameWindow:
         self.patch = self._patch() if frames.map and frames.map[1] in window.names else None
 
     def draw(self, n):
-        """Entry n of the run, where it has a window."""
+        """Draw entry n of the run, if it has a window."""
         if n not in self.window:
             return
         x, found = self.window.columns(n) / self.frames.moments.a, self.window.fields(n, self.frames.fields)

@@ -1,4 +1,4 @@
-"""Heights that pass through the contact: all features together, about the centre of the first."""
+"""Heights that pass through the contact: all features together, around the centre of the first."""
 
 import math
 from dataclasses import dataclass
@@ -16,7 +16,8 @@ AROUND = 0.05  # of what is covered, shown on each side of it: the smooth surfac
 @dataclass(frozen=True)
 class Heights:
     """x, y: m, from the first feature's centre and from the middle of the contact, as in maps of the index; values (x, y): m,
-    of one row where nothing varies along y; filled (x, y): where a scan has no height and its neighbours gave one."""
+    one row if nothing varies along y; filled (x, y): mask of unmeasured points that are filled from their neighbours.
+    """
 
     x: np.ndarray
     y: np.ndarray
@@ -34,12 +35,12 @@ class Heights:
 
     @property
     def true(self):
-        """Whether x and y can be drawn on one scale."""
+        """Whether x and y can have one scale."""
         return 1 / LONG < self.tall < LONG
 
 
 def heights(scene):
-    """The :class:`Heights` of a scene in which something passes; a single map on its own points."""
+    """The :class:`Heights` of a scene with a passage; a single map on its own points."""
     features = scene.features
     if all(f.transverse for f in features):
         x, y = _even(features, "x", ALONG), np.zeros(1)

@@ -1,4 +1,4 @@
-"""Text of an index of fatigue and of a stress in figures: with as many digits as are known, and without an exponent."""
+"""Printed text of a fatigue index and of a stress in figures: known digits only, without exponent."""
 
 import math
 
@@ -10,7 +10,7 @@ SENSE = 1000.0  # an index beyond is of no material: as of a Newtonian film that
 
 
 def index_text(Fi, error=None):
-    """'1.008': with two digits of the error, where that is known, else with two decimals; not all of a number without sense."""
+    """Text such as '1.008': two digits of the error if known, else two decimals; fewer for very large values."""
     if Fi >= SENSE:
         return f"{Fi:.3g}"
     known = error is not None and math.isfinite(error) and error > 0
@@ -18,20 +18,20 @@ def index_text(Fi, error=None):
 
 
 def resolved(found, whose="feature"):
-    """Which moments the resolved part of a search has; found: its summary; whose: position it is, in words."""
+    """Text of the moments in the resolved part of a search; found: its summary; whose: text of the position."""
     return f"{PART} ({whose} up to {found['to_x_a']:.2f} a)"
 
 
 def error_of(found):
-    """Error of the largest index in a summary of the surface or of what lies below, None where it is not known."""
+    """Error of the largest index in a summary, at or below the surface; None if it is not known."""
     return found.get("error", {}).get("Fi_max")
 
 
 def largest(found):
-    """The largest index of such a summary."""
+    """Text of the largest index of such a summary."""
     return index_text(found["Fi_max"], error_of(found))
 
 
 def mpa(stress):
-    """Three digits of a stress (Pa) in MPa, and 1250, not 1.25e+03."""
+    """Text of a stress (Pa) in MPa with three digits, without exponent."""
     return f"{float(f'{stress / 1e6:.3g}'):g}"

@@ -1,9 +1,9 @@
-"""Interference colours of an oil film between a coated glass and a steel surface, as optical rigs show them.
+"""Interference colours of an oil film between a coated glass and a steel surface, as in optical rigs.
 
-Two beams of equal strength, normal to the film, dark where the film is zero: the intensity at a wavelength is
-(1 - cos(4 pi n h/lambda))/2 (Cameron & Gohar 1966; Foord, Wedeven, Westlake & Cameron 1969). The refractive index n of the oil
-follows its density by Lorentz and Lorenz: (n^2 - 1)/(n^2 + 2) over the density is constant. White light is seen by the standard
-observer CIE 1931 in the fit of Wyman, Sloan & Shirley 2013, and printed as sRGB (IEC 61966-2-1).
+Two beams of equal strength, normal to the film, dark at zero film: the intensity at a wavelength is (1 - cos(4 pi n
+h/lambda))/2 (Cameron & Gohar 1966; Foord, Wedeven, Westlake & Cameron 1969). The refractive index n of the oil follows its
+density by Lorentz and Lorenz: (n^2 - 1)/(n^2 + 2) over the density is constant. White light is seen by the standard observer
+CIE 1931 in the fit of Wyman, Sloan & Shirley 2013, and printed as sRGB (IEC 61966-2-1).
 """
 
 import math
@@ -29,8 +29,9 @@ WHITE = np.array([0.9505, 1.0, 1.0890])  # D65
 
 @dataclass(frozen=True)
 class Light:
-    """Light in which the film is seen; wavelength (m) of monochromatic light; index: refractive index of the oil without
-    pressure. Raises SceneError for values that no rig has."""
+    """Light of the rig. wavelength (m): of monochromatic light; index: refractive index of the oil at p = 0. Raises SceneError
+    for impossible values.
+    """
 
     kind: str = CHROMATIC
     index: float = INDEX
@@ -49,13 +50,13 @@ class Light:
         return white_light(path)
 
     def index_at(self, ratio):
-        """Refractive index of oil whose density is `ratio` times that without pressure."""
+        """Refractive index of oil whose density is `ratio` times that at p = 0."""
         share = ratio * (self.index**2 - 1) / (self.index**2 + 2)
         return np.sqrt((1 + 2 * share) / (1 - share))
 
     @property
     def words(self):
-        """The light in a sentence."""
+        """Description of the light."""
         of = "white light" if self.kind == CHROMATIC else f"light of {self.wavelength * 1e9:.1f} nm"
         return f"{of}, refractive index {self.index:g} of the oil without pressure"
 

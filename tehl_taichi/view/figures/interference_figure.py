@@ -1,4 +1,4 @@
-"""The contact as an optical rig shows it: interference colours of the film, and the film of every colour."""
+"""Figure of interference colours as in an optical rig, with a scale of film thickness."""
 
 import numpy as np
 
@@ -11,8 +11,9 @@ FINE = 1200  # points of the picture along its longer side: the film is smooth, 
 
 
 def interference(page, moments, light):
-    """Colours over x, y; below them the scale of films for the refractive index at the middle of the contact. light: a
-    :class:`tehl_taichi.view.figures.interference.Light`."""
+    """Figure of colours over x, y, with the scale of films for the refractive index at the middle of the contact. light: a
+    :class:`tehl_taichi.view.figures.interference.Light`.
+    """
     store, n = moments.store, moments.one()
     f = store.fields(n, ["pressure", "film", *(name for name in ("temperature_mid",) if name in store.stored)])
     inlet = store.scene.operation.temperature
@@ -27,7 +28,7 @@ def interference(page, moments, light):
 
 
 def _picture(moments, path):
-    """(x, y, optical paths) in a and m on points between those of the grid, of what a map shows."""
+    """(x, y, optical paths) in a and m, interpolated between the nodes of the map."""
     left, right = moments.window
     y, path = mirrored(moments.store.y / moments.a, path)
     s = Scales.of(moments.store.scene)
@@ -39,7 +40,7 @@ def _picture(moments, path):
 
 
 def _panels(page, tall, lying):
-    """tall: height over width of a picture that does not lie."""
+    """(figure, axes); tall: height over width of an upright picture."""
     tall = 1 / tall if lying else tall
     room = 0.8 * page.inches * tall
     figure, axes = page.figure(2, height=room + 9 * page.text / 72 + 0.25, height_ratios=(room, 0.25))
@@ -47,7 +48,7 @@ def _panels(page, tall, lying):
 
 
 def _draw(ax, scene, x, y, colours):
-    """The picture; a wide ellipse lies on its side, as in other maps."""
+    """Draw the picture; a wide ellipse is turned, as in other maps."""
     across = f"y / a{half_axis(scene)}"
     if lies(scene):
         ax.imshow(colours, extent=(y[0], y[-1], x[-1], x[0]), interpolation="bilinear")
@@ -58,7 +59,7 @@ def _draw(ax, scene, x, y, colours):
 
 
 def _draw_scale(ax, light, index, top):
-    """The colour of every film up to `top` (m)."""
+    """Draw the colour of every film up to `top` (m)."""
     h = np.linspace(0.0, top, FILMS)
     ax.imshow(light.colours(index * h)[None], extent=(0.0, top * 1e6, 0.0, 1.0), aspect="auto")
     ax.set(yticks=(), xlabel=f"film (µm) where the refractive index is {index:.3f}, as in the middle")

@@ -1,4 +1,4 @@
-"""The line Fi = 1 on a map of the index, and what explains the lines on such a map."""
+"""Line Fi = 1 on a map of the index, and explanations of the lines on such a map."""
 
 from tehl_taichi.view.figures import palette
 
@@ -7,12 +7,12 @@ TRACE = "trace of the critical plane (at 0° it lies in the surface)"
 
 
 def crossed(Fi):
-    """Whether a map of the index goes through the fatigue limit."""
+    """Whether a map of the index crosses the fatigue limit."""
     return bool(Fi.min() < 1 < Fi.max())
 
 
 def limit_line(ax, x, y, Fi):
-    """Draw Fi (x, y) = 1 where the map crosses it: white with a black rim, seen on every colour of the map."""
+    """Draw Fi (x, y) = 1 if the map crosses it: white with a black rim, visible on every colour."""
     if crossed(Fi):
         ax.contour(x, y, Fi.T, [1.0], colors=[palette.LIMIT], linewidths=[_width()], path_effects=_rim())
 
@@ -37,6 +37,6 @@ def handle():
 
 
 def explained(traced, limited):
-    """The lines on maps, in words; traced, limited: whether there is such a line."""
+    """Text about the lines on maps; traced, limited: whether there are such lines."""
     parts = ([f"blue line: {TRACE}"] if traced else []) + ([f"white line: {SAID}"] if limited else [])
     return f"; {', '.join(parts)}" if parts else ""

@@ -1,4 +1,4 @@
-"""Lines along x in the row :attr:`Moments.line`: pressure and film, temperatures, and temperatures across the film."""
+"""Lines along x in the row :attr:`Moments.line`: pressure and film, temperatures, temperatures across the film."""
 
 import numpy as np
 
@@ -13,24 +13,26 @@ ACROSS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # x / a at which profiles are drawn
 
 
 def carrier(scene):
-    """Which of both surfaces has what passes, in words; nothing where nothing does."""
+    """Text of the surface that carries the passing feature; "" without a passage."""
     verb = "carry" if all(surface.features for surface in scene.surfaces) else "carries"
     return f"{carriers(scene)} {verb} the {passing(scene)}" if scene.transient else ""
 
 
 def headed(page, figure, moments, what, shown, more=""):
-    """Title with scene and, where there is one, the moment; more: said last."""
+    """Set the title: scene, moment if there is one, then `more`."""
     alone = f", {moments.says(shown[0])}" if len(shown) == 1 else ""
     page.title(figure, f"{moments.store.scene.name}: {what}{alone}{'; ' * bool(more)}{more}")
 
 
 def start_style(colour):
-    """The steady start (grey) is dashed, and above the other moments: they cover it where nothing has changed."""
+    """Line style of a moment: the steady start (grey) is dashed, and above the other moments, which would hide it where nothing
+    has changed.
+    """
     return dict(ls="--", zorder=3) if colour == palette.GREY else dict(ls="-", zorder=2)
 
 
 def centreline(page, moments):
-    """Pressure and film for several feature positions."""
+    """Figure of pressure and film for several feature positions."""
     store, row, shown = moments.store, moments.line, moments.several()
     figure, ((top,), (low,)) = page.figure(2, sharex=True)
     window, zoomed = ZoomLines(store, row), False
@@ -51,7 +53,9 @@ def centreline(page, moments):
 
 
 def temperature(page, moments):
-    """Mid-film and both surfaces for several feature positions: a colour each, a kind of line each."""
+    """Figure of mid-film and surface temperatures for several feature positions: a colour per position, a line style per
+    kind.
+    """
     from matplotlib.lines import Line2D
 
     store, row, shown = moments.store, moments.line, moments.several()
@@ -70,7 +74,7 @@ def temperature(page, moments):
 
 
 def profiles(page, moments):
-    """Temperature across the film at several x."""
+    """Figure of the temperature across the film at several x."""
     store, n = moments.store, moments.one()
     T = store.fields(n, ["temperature"])["temperature"][:, moments.line]
     figure, ((ax,),) = page.figure(height=1.6 * page.row())

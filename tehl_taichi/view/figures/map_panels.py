@@ -1,6 +1,6 @@
-"""Panels of maps over x, y: below each other, side by side where they are tall, or a wide ellipse on its side.
+"""Panels of maps over x, y: below each other, side by side if they are tall, or turned for a wide ellipse.
 
-An ellipse that is wide across the flow lies with its long axis to the right; panels below show its middle.
+An ellipse that is wide across the flow has its long axis to the right; panels below show its middle.
 """
 
 from dataclasses import dataclass
@@ -28,12 +28,12 @@ def mirrored(y, values):
 
 
 def shade(ax, x, y, values, **style):
-    """values (x, y) in colours; a picture in files of vectors, too."""
+    """Draw values (x, y) in colours, as a bitmap also in vector files."""
     return ax.pcolormesh(x, y, values.T, shading="gouraud", rasterized=True, **style)
 
 
 def bar(figure, image, axes, label, beside=False):
-    """A colour bar with an arrow at each end where colours are cut; beside: below maps that stand side by side."""
+    """Add a colour bar with an arrow at each end where colours are cut; beside: below maps that are side by side."""
     low, top = image.get_clim()
     values = image.get_array()
     cut = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}[int(values.min() < low), int(values.max() > top)]
@@ -42,7 +42,7 @@ def bar(figure, image, axes, label, beside=False):
 
 
 def lies(scene):
-    """Whether maps of this scene lie on their side."""
+    """Whether maps of this scene are turned."""
     s = Scales.of(scene)
     return scene.contact.kind == "elliptic" and s.b > WIDE * s.a
 
@@ -54,14 +54,13 @@ def half_axis(scene):
 
 
 def panels(page, moments, count):
-    """:class:`Panels` for `count` maps of a moment."""
+    """The :class:`Panels` for `count` maps of a moment."""
     return _on_its_side(page, moments, count) if lies(moments.store.scene) else _upright(page, moments, count)
 
 
 @dataclass(frozen=True)
 class Panels:
-    """figure; axes: one for each field; beside: whether these stand side by side; middles: axes of the middle of a lying
-    ellipse, none otherwise."""
+    """figure; axes: one per field; beside: they are side by side; middles: axes of the middle of a turned ellipse, or none."""
 
     figure: Any
     moments: Any
@@ -81,7 +80,7 @@ class Panels:
         return image
 
     def bar(self, image, which, label):
-        """A colour bar of the fields `which` (a slice)."""
+        """Add a colour bar for the fields `which` (a slice)."""
         bar(self.figure, image, list(self.axes[which]), label, self.beside)
 
 
@@ -100,7 +99,7 @@ def _upright(page, moments, count):
 
 
 def _on_its_side(page, moments, count):
-    """The whole ellipses below each other, and a row with the middle of each."""
+    """Panels with the whole ellipses below each other, and a row with the middle of each."""
     left, right = moments.window
     whole, middle = [f"whole {n}" for n in range(count)], [f"middle {n}" for n in range(count)]
     flat = BESIDE * page.inches * (right - left) / (2 * EDGE * _b(moments))
@@ -139,7 +138,7 @@ def _seen(moments, left, right):
 
 
 def _draw_lying(ax, moments, values, side, **style):
-    """A field with y to the right up to `side` (a) and x downwards: as it is seen from above."""
+    """Draw a field with y to the right up to `side` (a) and x downwards: as seen from above."""
     left, right = moments.window
     seen = _seen(moments, left, right)
     y, full = mirrored(moments.store.y / moments.a, values[seen])

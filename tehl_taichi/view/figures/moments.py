@@ -1,4 +1,4 @@
-"""Moments of a run that figures show, and their names."""
+"""Moments of a run shown in figures, and their texts."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -23,9 +23,8 @@ ROOM = 2.5                    # of the central film: upper end of the film's axi
 
 @dataclass(frozen=True)
 class Moments:
-    """Moments of the run in `store`; at: the only position of the feature that is wanted, in a, or None.
-
-    Raises SceneError where the feature was never there.
+    """Moments of the run in `store`; at: only this position of the feature, in a, or None. Raises SceneError if the feature is
+    never there.
     """
 
     store: Any
@@ -56,24 +55,26 @@ class Moments:
 
     @property
     def row(self):
-        """Row of y = 0, in which runs are compared."""
+        """Row of y = 0, used to compare runs."""
         return int(np.argmin(np.abs(self.store.y)))
 
     @property
     def worst(self):
-        """Entry with the largest pressure: of the passage, where there is one."""
+        """Entry with the largest pressure: of the passage, if there is one."""
         p = self.store.scalar("p_max_Pa")
         return int(np.argmax(p[1:])) + 1 if len(p) > 1 else 0
 
     @property
     def half(self):
-        """Whether y = 0 says it all: in one dimension, on a half domain, and in a steady contact of smooth surfaces."""
+        """Whether the row y = 0 suffices: in one dimension, on a half domain, and in a steady contact of smooth surfaces."""
         return self.store.y[0] >= 0 or self.store.steps < 2
 
     @cached_property
     def line(self):
-        """Row of the lines along x: y = 0, but of a passage on the whole domain that of its largest pressure, which may lie
-        anywhere: along y = 0 a measured surface would often show its second-best peaks only. No row at the rim of a map."""
+        """Row of the lines along x: y = 0; for a passage on the whole domain the row of its largest pressure.
+
+        Along y = 0 a measured surface would often show only lower peaks. Rows at the rim of a map are excluded.
+        """
         if self.half:
             return self.row
         p = self._pressures
@@ -81,18 +82,18 @@ class Moments:
 
     @cached_property
     def _pressures(self):
-        """Largest one of every row at the moment of the largest pressure, Pa."""
+        """Largest pressure (Pa) of every row at the moment of the largest pressure."""
         return self.store.fields(self.worst, ["pressure"])["pressure"].max(axis=0)
 
     @cached_property
     def _away(self):
-        """Rows that do not lie where a measured map fades out: what is there is not the surface's own."""
+        """Mask of rows outside the fading rim of measured maps, whose heights are not those of the surface."""
         rims = [(f, f.to_rim(0.0, self.store.y - f.y)[1]) for f in self.store.scene.features if f.kind.measured]
         return np.all([np.full(self.store.y.size, True), *((rim < 0) | (rim > f.taper) for f, rim in rims)], axis=0)
 
     @property
     def along(self):
-        """Place of the line as text."""
+        """Text of the place of the line."""
         store = self.store
         if store.y.size == 1:
             return "along x"
@@ -103,12 +104,12 @@ class Moments:
 
     @property
     def window(self):
-        """(left, right) in a of what is shown along x, the feature among it."""
+        """(left, right) in a of the range shown along x, including the feature."""
         at = 0.0 if self.at is None else self.at
         return max(min(WINDOW[0], at - 0.4), self.x[0]), min(max(WINDOW[1], at + 0.4), self.x[-1])
 
     def nearest(self, position):
-        """Entry with the feature nearest to `position` (a); the steady one where nothing passes."""
+        """Entry with the feature nearest to `position` (a); the steady one without a passage."""
         return 1 + int(np.argmin(np.abs(self.moved - position))) if self.store.steps > 1 else 0
 
     @cached_property
@@ -120,21 +121,22 @@ class Moments:
 
     @cached_property
     def missed(self):
-        """The entry of the largest pressure where none of those shows its peak; none where a position was chosen."""
+        """[entry of the largest pressure] if none of those entries shows its peak; [] if a position was chosen."""
         p, at = self.store.scalar("p_max_Pa"), self.moved
         shown = any(abs(at[n - 1] - at[self.worst - 1]) <= NEAR and p[n] >= ALIKE * p[self.worst] for n in self.placed)
         return [] if shown or self.at is not None else [self.worst]
 
     def several(self):
-        """{entry: (colour, what it shows in words)} for lines: the steady start in grey, then the positions and the largest
-        pressure; the same in every figure."""
+        """{entry: (colour, text)} for lines: the steady start in grey, then the positions and the largest pressure; equal in
+        every figure.
+        """
         if self.store.steps < 2:
             return {0: (palette.LINES[0], self.says(0))}
         colours = {0: palette.GREY, **dict(zip([*self.placed, *self.missed], palette.LINES))}
         return {n: (colour, "largest pressure: " * (n in self.missed) + self.says(n)) for n, colour in colours.items()}
 
     def one(self):
-        """The entry of maps: that with the feature nearest to the middle, or where it is wanted."""
+        """Entry of maps: the feature nearest to the middle, or at the chosen position."""
         return self.nearest(0.0 if self.at is None else self.at)
 
     def says(self, n):
@@ -147,13 +149,13 @@ class Moments:
         return f"{self.moved[n - 1]:+.2f} a".replace("-0.00", "+0.00")
 
     def peak(self, n):
-        """Description of entry n with its largest pressure and, where another moment has a larger one, that of the passage."""
+        """Description of entry n with its largest pressure and, if another moment has a larger one, that of the passage."""
         p, worst = (round(float(self.store.fields(k, ["pressure"])["pressure"].max()) / 1e9, 2) for k in (n, self.worst))
         more = f" ({worst:.2f} at {self._position(self.worst)})" if worst > p else ""
         return f"{self.says(n)}, p_max {p:.2f} GPa{more}"
 
     def film_top(self, entries):
-        """Upper end (m) of the film's axis: well above the film of the contact, and above what a feature leaves inside."""
+        """Upper end (m) of the film's axis: well above the central film and above the film inside a feature."""
         inside = np.abs(self.x) < INSIDE
         deepest = max(float(self.store.fields(n, ["film"])["film"][inside, self.line].max()) for n in entries)
         return max(ROOM * float(self.store.scalar("h_c_m")[0]), 1.1 * deepest)

@@ -1,4 +1,4 @@
-"""Figures in memory, as a notebook shows them."""
+"""Figures in memory for notebooks."""
 
 import base64
 import io

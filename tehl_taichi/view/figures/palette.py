@@ -1,7 +1,7 @@
-"""One palette: the colours of every figure, animation and report, distinguished by colour-blind readers too.
+"""Palette: the colours of every figure, animation and report, distinguishable for colour-blind readers.
 
-Lines: Okabe & Ito 2008, Color Universal Design. Maps: of one direction of lightness, so that they are read in grey as well;
-matplotlib and plotly both know them by these names.
+Lines: Okabe & Ito 2008, Color Universal Design. Maps: with monotonic lightness, so that they can be read in grey; matplotlib
+and plotly both know them by these names.
 """
 
 BLUE, VERMILLION, GREEN, PURPLE = "#0072b2", "#d55e00", "#009e73", "#cc79a7"

@@ -1,4 +1,4 @@
-"""The figures of a stored run, and those of a fatigue result (matplotlib, the `plot` extra)."""
+"""Figures of a stored run, and of a fatigue result (matplotlib, the `plot` extra)."""
 
 from functools import partial
 
@@ -22,18 +22,18 @@ from tehl_taichi.view.figures.notebook_figures import Figures
 
 
 def write_all(store, folder, page=None, at=None, depth=None, light=None):
-    """Write every figure the store has data for into `folder`; returns the paths.
+    """Write every figure of the store into `folder`; returns the paths.
 
-    page: a :class:`FigureStyle`; at: position of the feature to show, a (default: some); depth: µm, of the fatigue to show
-    beside that of the surface (default: the worst); light: a :class:`tehl_taichi.view.figures.interference.Light` for a figure
-    of interference colours. Raises SceneError for a moment or a depth that the store has not, StoreError.
+    page: a :class:`FigureStyle`; at: position of the feature to show, a (default: several); depth: µm, of the second fatigue
+    map (default: the worst); light: a :class:`tehl_taichi.view.figures.interference.Light` for a figure of interference
+    colours. Raises SceneError for a moment or a depth that the store does not have, StoreError.
     """
     page = page or FigureStyle()
     return page.write(folder, _all_of(store, page, at, depth, light))
 
 
 def draw_all(store, page=None, at=None, depth=None, light=None):
-    """{name: matplotlib Figure} of the same figures. Raises SceneError, StoreError."""
+    """{name: matplotlib Figure} of these figures. Raises SceneError, StoreError."""
     page = page or FigureStyle()
     return Figures({name: page.drawn(draw) for name, draw in _all_of(store, page, at, depth, light).items()}, page.dpi)
 
@@ -51,7 +51,7 @@ def _all_of(store, page, at, depth, light):
 
 
 def _of_the_film(store):
-    """{name: function} of what the store has."""
+    """{name: function} of the figures for which the store has data."""
     wide, warm = store.y.size > 1, not store.scene.isothermal
     has = {"surface": (surface_figure.surface, store.scene.transient),
            "centreline": (line_figures.centreline, True), "centreline_y": (across_figure.centreline_y, wide),
@@ -64,7 +64,7 @@ def _of_the_film(store):
 
 
 def _interference(store):
-    """The function that draws interference colours. Raises SceneError for a store without a map."""
+    """Function that draws interference colours. Raises SceneError for a store without a map."""
     if store.y.size == 1:
         raise SceneError(f"interference colours need a map over x and y, and {store.path} has only a line along x")
     return interference_figure.interference

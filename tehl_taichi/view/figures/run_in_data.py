@@ -1,4 +1,4 @@
-"""Profile of a run-in along the middle of a body, as figures and reports show it."""
+"""Profile of a run-in along the middle of a body, for figures and reports."""
 
 from dataclasses import dataclass
 
@@ -10,8 +10,9 @@ DEEP = 0.02  # of the largest residual stress: deeper layers have less and are n
 
 @dataclass(frozen=True)
 class RunInProfile:
-    """The body whose surface changed most, in its plane y = 0 (or the row next to it): name; x (m) and heights (m) before and
-    after; depths (m); residual: {"σ_xx": (x, depths) Pa, ...}."""
+    """Profile of the body whose surface changed most, in its plane y = 0 (or the row next to it). name; x (m) and heights (m)
+    before and after; depths (m); residual: {"σ_xx": (x, depths) Pa, ...}.
+    """
 
     body: str
     x: np.ndarray
@@ -22,7 +23,7 @@ class RunInProfile:
 
     @property
     def largest(self):
-        """Largest residual stress in size (Pa), 1 where there is none."""
+        """Largest absolute residual stress (Pa), 1 without any."""
         return max(np.abs(values).max() for values in self.residual.values()) or 1.0
 
 
@@ -39,6 +40,6 @@ def profile(scene, state):
 
 
 def title(scene, state, body):
-    """Name of the scene, body, and number of the passages."""
+    """Title with the scene, the body, and the number of passages."""
     count = f"{state.passages} passage{'s' * (state.passages != 1)} before the one that is judged"
     return f"{scene.name}: run-in of body {body}, {count if state.passages else 'no steel yields'}"

@@ -1,11 +1,11 @@
-"""Figure of a run-in: heights along the middle before and after, residual stress below them, what each passage changed."""
+"""Figure of a run-in: heights along the middle before and after, residual stress below them, surface change by passage."""
 
 from tehl_taichi.view.figures import palette, run_in_data
 from tehl_taichi.view.figures.map_panels import bar, shade
 
 
 def run_in(page, moments):
-    """The body whose surface changed most, in its plane y = 0 (or the row next to it)."""
+    """Figure of the body whose surface changed most, in its plane y = 0 (or the row next to it)."""
     scene, state = moments.store.scene, moments.store.run_in
     found = run_in_data.profile(scene, state)
     figure, axes = page.figure(2, 2)
@@ -22,7 +22,7 @@ def run_in(page, moments):
 
 
 def _heights(ax, found):
-    """Heights of the features of a surface, before and after."""
+    """Draw the heights of a surface's features before and after."""
     for values, label in ((found.before, "before"), (found.after, "after run-in")):
         ax.plot(found.x * 1e6, values * 1e6, label=label)
     ax.set(xlabel="x′ (µm)", ylabel="height (µm)")
@@ -31,7 +31,7 @@ def _heights(ax, found):
 
 
 def _passages(ax, records):
-    """Change of the surface by each passage, and by the one that is judged if it came again."""
+    """Draw the surface change by each passage, and by the repeated assessed passage, if any."""
     numbers = [one["passage"] for one in records]
     ax.bar(numbers, [one["surface_change_m"] * 1e9 for one in records], width=0.6,
            color=[palette.GREY if one["judged"] else palette.BLUE for one in records])

@@ -1,4 +1,4 @@
-"""A fatigue search as figures draw it: of the whole passage, and of its resolved part where that is not all."""
+"""Fatigue search as drawn in figures: of the whole passage, and of its resolved part if that is only a part."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -14,10 +14,10 @@ from tehl_taichi.view.figures.index_text import REST, resolved
 
 @dataclass(frozen=True)
 class DrawnSearch:
-    """title: the scene's name; result: its numbers and arrays; a: m; along: title of the axis along x; depth: µm, of the layer
-    that is wanted beside the surface, or None (the worst one); whose: what passes, in words; part: the DrawnSearch of the
-    resolved part, on which the answer rests, None where it is all or has no arrays; when: the moments in words, "" where there
-    is no part."""
+    """title: name of the scene; result: numbers and arrays; a: m; along: title of the axis along x; depth: µm, of the layer to
+    show besides the surface, or None (the worst); whose: text of the passing feature; part: DrawnSearch of the resolved part,
+    on which the verdict rests, or None; when: text of the moments, "" without a part.
+    """
 
     title: str
     result: SearchResult
@@ -45,14 +45,14 @@ class DrawnSearch:
 
     @property
     def constants(self):
-        """Scene, criterion and its numbers, moments where not all count alike, in words."""
+        """Text of the scene, the criterion, its numbers, and the moments if not all count."""
         f, when = self.summary, f"; {self.when}" if self.when else ""
         when = ", at the surface" * (self.result.limit_under_row is not None) + when
         return f"{self.title}: {f['criterion']}, κ = {f['kappa_F']:.4g}, σ_eF = {f['sigma_eF_Pa'] / 1e6:.4g} MPa{when}"
 
     @property
     def each(self):
-        """The searches that are shown; the search that decides the verdict stands first."""
+        """Searches to show; the one that decides the verdict is first."""
         return [self.part, self] if self.part else [self]
 
     @property
@@ -61,5 +61,5 @@ class DrawnSearch:
 
 
 def beside_worst(depths, worst):
-    """Which of the depths whose points were all searched lies next to the worst (m); the surface, their first, apart."""
+    """Number of the searched depth next to the worst one (m), except the surface."""
     return 1 + int(np.argmin(np.abs(depths[1:] - worst)))

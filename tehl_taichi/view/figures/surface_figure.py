@@ -1,4 +1,4 @@
-"""Figure of the surface that passes: heights over x, y, or over x where nothing varies across."""
+"""Figure of the passing surface: heights over x, y, or over x if nothing varies along y."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ COARSE = 400  # points: so few are joined by colours in between, as the heights 
 
 
 def surface(page, moments):
-    """All features together."""
+    """Figure of all features together."""
     scene = moments.store.scene
     found = heights(scene)
     figure = _line(page, found) if found.line else _map(page, found)
@@ -40,7 +40,7 @@ def _map(page, found):
 
 
 def _picture(ax, found):
-    """Heights as a picture: a mesh of triangles of a million points takes minutes. A point stands in the middle of its dot."""
+    """Draw heights as a picture (a triangle mesh of a million points takes minutes); each point is the centre of its pixel."""
     ends = [end * 1e6 for at in (found.x, found.y)
             for end in (at[0] - (at[1] - at[0]) / 2, at[-1] + (at[1] - at[0]) / 2)]
     between = "bilinear" if max(found.values.shape) <= COARSE else "antialiased"
@@ -50,7 +50,7 @@ def _picture(ax, found):
 
 
 def _cover(ax, filled, ends):
-    """Points that were not measured, in the colour of what has no value."""
+    """Cover unmeasured points with the colour for missing values."""
     from matplotlib.colors import ListedColormap
 
     ax.imshow(np.where(filled.T, 1.0, np.nan), origin="lower", extent=ends, interpolation="nearest", zorder=1,

@@ -1,4 +1,4 @@
-"""Pressure and film of a zoom window along a row, over those of its run."""
+"""Pressure and film of a zoom window along a row, drawn over those of its run."""
 
 from tehl_taichi.view.zoom_window import ZoomWindow
 
@@ -6,7 +6,7 @@ THICK, NODES = 1.6, 2.0  # points: width of the lines, size of a node
 
 
 class ZoomLines:
-    """The window of the run in a store along the row of that number."""
+    """Zoom window of the run in a store, along the given row."""
 
     def __init__(self, store, row):
         self.window = ZoomWindow.of(store)

@@ -1,4 +1,4 @@
-"""Maps of a zoom window at the moment of its largest pressure, and its outline on those of the run."""
+"""Maps of a zoom window at the moment of its largest pressure, and its outline on the maps of the run."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ OUTLINE = dict(color=palette.GREY, ls="--", lw=0.8)
 
 
 def zoom(page, moments):
-    """Pressure, film and its temperature in the window."""
+    """Figure of pressure, film and film temperature in the window."""
     store, window = moments.store, ZoomWindow.of(moments.store)
     n = window.worst if moments.at is None or moments.one() not in window else moments.one()
     found = window.fields(n, SHOWN)
@@ -35,7 +35,7 @@ def zoom(page, moments):
 
 
 def outline(panels, moments, n):
-    """Draw the ends of the window at entry n of the run on its maps. Returns whether there is one."""
+    """Draw the edges of the window at entry n of the run on its maps. Returns whether it has a window."""
     window = ZoomWindow.of(moments.store)
     if window is None or n not in window or panels.middles:
         return False
