@@ -231,13 +231,19 @@ def judged(rows):
         part = "steady" if "answers" not in one else {"exit": "exit", "roug": "roughness"}.get(one["kind"][:4], "passage")
         own, found = _bars(one, part)
         out += [(part, _quantity(name), own[name].value, size, abs(one["finer"][name] - own[name].value))
-                for name, size in found.items() if name in one["finer"] and _counts(part, name, own[name].value)]
+                for name, size in found.items() if name in one["finer"] and _counts(part, name, own)]
     return out
 
 
-def _counts(part, name, value):
-    """Whether a bar is judged: of rough surfaces those of what settles, elsewhere not of friction without slip."""
-    return name.startswith("contact") or name.rpartition(".")[2] in NUMBERS if part == "roughness" else value != 0
+def _counts(part, name, own):
+    """Whether a bar is judged: of what a run states. Of rough surfaces that is what settles, elsewhere no percentiles, no
+    friction without slip, and no averaged index that is the one at the nodes (of cells as long as the length)."""
+    of_points = name.rpartition(".")[2] in NUMBERS
+    if part == "roughness":
+        return name.startswith("contact") or of_points
+    twin = own.get(name.replace("averaged_", ""))
+    at_nodes = "averaged_" in name and twin is not None and twin.value == own[name].value
+    return own[name].value != 0 and not at_nodes and (not of_points or name.endswith(NUMBERS[0]))
 
 
 def _quantity(name):
