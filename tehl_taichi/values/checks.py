@@ -106,8 +106,8 @@ def nearest(word, allowed):
 
 
 def _with(word, known):
-    """Names that contain a word of at least three letters."""
-    return [name for name in known if len(word) > 2 and word in name]
+    """Names that contain a word of at least three letters, or a shorter one between underscores."""
+    return [name for name in known if len(word) > 2 and word in name or word in name.split("_")]
 
 
 def _likeness(one, word):

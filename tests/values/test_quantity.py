@@ -110,4 +110,5 @@ def test_a_load_that_makes_no_contact_is_asked_about(name, changes, said):
 def test_a_part_of_a_name_finds_it():
     """Whoever asks for friction gets the column that has it in its name."""
     assert nearest("friction", ["transient_friction_coefficient_mean", "x"]).endswith("'transient_friction_coefficient_mean'?)")
+    assert nearest("HV", ["depth_um", "hardness_HV"]) == " (did you mean 'hardness_HV'?)"
     assert nearest("qqq", ["x", "steady"]) == nearest("st", ["xxxxxxxxxxxxxxxst"]) == ""
