@@ -23,6 +23,7 @@ WINDOW = 0.6       # half width (in a) of the part searched around one small fea
 MARGIN = 0.3       # (in a) searched beyond the rim of larger features
 LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
 BLOCK_BYTES = 1e9  # histories held at once; more points than fit are done in blocks of y rows, each from the loads again
+WHOLE = 1e-6  # cells
 NODES = range(-2, 4)  # of the interpolation between cells, from the node before the point
 
 
@@ -246,6 +247,17 @@ class StressHistories:
         for some in self._neighbours(list(fields)):
             out[..., some[0] : some[-1] + 1, :] = np.stack([self._at(fields[self.entries[t]], t) for t in some], axis=-2)
 
+    def followed(self, fields):
+        """(x', moments, 6) of fields (entries, x, 6) of every tick: of few numbers each, so all moments at once."""
+        start = self._start(np.arange(self.centres.size))
+        whole = np.where(np.abs(start - np.rint(start)) < WHOLE, np.rint(start), np.floor(start)).astype(int)
+        part = np.where(np.abs(start - whole) < WHOLE, 0.0, start - whole)
+        columns, entries = whole[:, None] + np.arange(self.x.size), self.ticks[self.entries][:, None]
+        out = np.zeros((*columns.shape, fields.shape[-1]))
+        for node, weight in zip(NODES, lagrange(NODES, part)):
+            out += weight[:, None, None] * fields[entries, np.clip(columns + node, 0, fields.shape[1] - 1)]
+        return out.swapaxes(0, 1)
+
     def _neighbours(self, entries):
         """The moments of some entries, as arrays of consecutive ones, no more than a block has entries."""
         moments = np.flatnonzero(np.isin(self.entries, entries))
@@ -319,7 +331,7 @@ def shifted(fields, start, count):
     """`count` columns of fields (x, ..., 6) from column `start`; exact for whole numbers, else by the polynomial through six
     nodes."""
     whole = int(np.round(start))
-    if abs(start - whole) < 1e-6:
+    if abs(start - whole) < WHOLE:
         return fields[whole: whole + count]
     whole = int(np.floor(start))
     weights = lagrange(NODES, start - whole)

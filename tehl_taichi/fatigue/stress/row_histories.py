@@ -123,12 +123,10 @@ def _operators(passage, depths, kinds):
 def _heat(passage, depths, deep, rows, out, notify):
     """Thermal stress below the surface added to the histories `out` (x', kinds, depths, moments, 6); deep: numbers of the
     depths there; notify: called with those done."""
-    first, part = min(depths[n] for n in deep), np.zeros_like(out[:, 0, 0])
+    first = min(depths[n] for n in deep)
     thermal = _windowed_heat().below(passage, first) if has_window(passage.reader) else passage.below(first)
-    entries = np.unique(passage.entries)
     with ThreadPoolExecutor(WORKERS) as pool:
         for done, (n, found) in enumerate(zip(deep, pool.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):
             for kind, stresses in enumerate(found):
-                passage.follow(part, {entry: stresses[passage.ticks[entry]] for entry in entries})
-                out[:, kind, n] += part
+                out[:, kind, n, :-1] += passage.followed(stresses)
             notify(done)
