@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
+from tehl_taichi.fatigue.stress.workers import WORKERS
 
 DEPTHS = 2  # every so many rungs of the ladder of depths
 MOMENTS = 4  # and every so many entries

@@ -1,14 +1,14 @@
 """Von Mises stress of stress histories: where the elastic bodies would yield."""
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
 from tehl_taichi.fatigue import local_strength
-from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
+from tehl_taichi.fatigue.stress.workers import pool
 
 POINTS = 16  # whose stresses are found at once
+NUMBERS = 100  # of a history count as one that is transformed
 
 
 @dataclass(frozen=True, order=True)
@@ -31,10 +31,8 @@ def von_mises(stress):
 def largest(history, of=von_mises):
     """(points,) Pa: the largest over the moments of histories (points, times, 6); of: stresses (..., 6) to what is compared."""
     parts = np.array_split(history, max(1, -(-len(history) // POINTS)))
-    if len(parts) == 1:  # threads cost more than they find, and a steady contact asks thousands of times
-        return of(history).max(axis=1)
-    with ThreadPoolExecutor(WORKERS) as pool:
-        return np.concatenate(list(pool.map(lambda part: of(part).max(axis=1), parts)))
+    with pool(history.size / NUMBERS) as workers:
+        return np.concatenate(list(workers.map(lambda part: of(part).max(axis=1), parts)))
 
 
 def share_of(strength):

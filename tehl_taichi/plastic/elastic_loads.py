@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tehl_taichi.fatigue.stress.histories import StressHistories
-from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
+from tehl_taichi.fatigue.stress.workers import WORKERS
 from tehl_taichi.fatigue.von_mises import von_mises
 
 APART = 0.05    # a: moments that are followed are no closer

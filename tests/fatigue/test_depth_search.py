@@ -9,7 +9,8 @@ from rolling import Rolling
 import tehl_taichi as tehl
 from tehl_taichi.errors import RuntimeUnavailable
 from tehl_taichi.fatigue import assessment, candidate_rows, depth_profile, depth_search
-from tehl_taichi.fatigue.stress import half_space, row_stress
+from tehl_taichi.fatigue.stress import half_space
+from tehl_taichi.fatigue.stress import workers as stress_workers
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
 from tehl_taichi.fatigue.stress.row_stress import RowStress
@@ -38,9 +39,10 @@ def test_rows_are_those_of_the_whole_plane(line, mirrored, row):
 
 
 def test_rows_by_any_number_of_threads(monkeypatch):
+    monkeypatch.setattr(stress_workers, "WORTH", 0)
     x, y, found = np.arange(24) * 11e-6, np.arange(9) * 7e-6, []
     for count in (1, 3):
-        monkeypatch.setattr(row_stress, "WORKERS", count)
+        monkeypatch.setattr(stress_workers, "WORKERS", count)
         found.append(RowStress(x, y, NU, True, True, DEPTHS, [3]).rows.tobytes())
     assert found[0] == found[1]
 

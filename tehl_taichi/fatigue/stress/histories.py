@@ -7,14 +7,13 @@ every history begins and ends unloaded.
 """
 
 import functools
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 from tehl_taichi.engine.fftw import SINGLE
 from tehl_taichi.fatigue.stress.half_space import COMPONENTS, HalfSpaceStress
 from tehl_taichi.fatigue.stress.thermal_depth import ThermalBelow
-from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
+from tehl_taichi.fatigue.stress.workers import pool
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.values.interpolation import lagrange
@@ -188,6 +187,11 @@ class StressHistories:
     def _steps(self):
         return equal_steps(np.asarray(self.reader.time))
 
+    @property
+    def nodes(self):
+        """Number of the nodes whose loads have stresses."""
+        return self.grid_x.size * len(self.reader.y)
+
     def row_blocks(self):
         """Slices of y rows whose histories fit into BLOCK_BYTES."""
         row_bytes = 8.0 * self.x.size * (self.centres.size + 1) * (len(COMPONENTS) + 2)
@@ -223,8 +227,8 @@ class StressHistories:
         def fill(block):
             self.follow(out, dict(zip(block.tolist(), stresses(block))))
 
-        with ThreadPoolExecutor(WORKERS) as pool:
-            tasks = [pool.submit(fill, block) for block in blocks]
+        with pool(self.nodes) as workers:
+            tasks = [workers.submit(fill, block) for block in blocks]
             meanwhile()
             for done, task in enumerate(tasks, 1):
                 task.result()

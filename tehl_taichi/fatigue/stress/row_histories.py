@@ -1,14 +1,13 @@
 """Stress histories of points in rows of a body: under some rows at many depths, and of all rows of its surface."""
 
-from concurrent.futures import ThreadPoolExecutor
-
 import numpy as np
 
 from tehl_taichi.engine.fftw import DOUBLE, SINGLE, real_of
 from tehl_taichi.fatigue.stress.averaging import has_window
 from tehl_taichi.fatigue.stress.row_stress import RowStress
-from tehl_taichi.fatigue.stress.thermal_stress import WORKERS, ThermalStress
+from tehl_taichi.fatigue.stress.thermal_stress import ThermalStress
 from tehl_taichi.fatigue.stress.unit_loads import HELD
+from tehl_taichi.fatigue.stress.workers import pool
 
 
 def _no_progress(done, total):
@@ -125,8 +124,8 @@ def _heat(passage, depths, deep, rows, out, notify):
     depths there; notify: called with those done."""
     first = min(depths[n] for n in deep)
     thermal = _windowed_heat().below(passage, first) if has_window(passage.reader) else passage.below(first)
-    with ThreadPoolExecutor(WORKERS) as pool:
-        for done, (n, found) in enumerate(zip(deep, pool.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):
+    with pool(passage.nodes) as workers:
+        for done, (n, found) in enumerate(zip(deep, workers.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):
             for kind, stresses in enumerate(found):
                 out[:, kind, n, :-1] += passage.followed(stresses)
             notify(done)

@@ -9,15 +9,14 @@ odd too, so that one quarter of the plane around a rectangle is enough.
 """
 
 import itertools
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 from tehl_taichi.engine.fftw import DOUBLE, even_fast_length, half, half_back, real_of
 from tehl_taichi.fatigue.stress.half_space import spacing
 from tehl_taichi.fatigue.stress.strip_stress import StripStress
-from tehl_taichi.fatigue.stress.thermal_stress import WORKERS
 from tehl_taichi.fatigue.stress.unit_loads import ACROSS, CARRIED, HELD, SIGNS, TURNED, along, unit_load, wrapped
+from tehl_taichi.fatigue.stress.workers import pool
 
 
 class RowStress:
@@ -90,8 +89,8 @@ class RowStress:
             load, n = one
             out[:, load, :, :, n] = self._rectangles(lags, load, self.depths[n], mirrored)
 
-        with ThreadPoolExecutor(WORKERS) as pool:
-            list(pool.map(put, itertools.product(range(3), range(len(self.depths)))))
+        with pool(self.x.size * self.y.size) as workers:
+            list(workers.map(put, itertools.product(range(3), range(len(self.depths)))))
         return out.reshape(shape[0], 3 * self.y.size, -1)
 
     def _rectangles(self, lags, load, depth, mirrored):

@@ -12,13 +12,13 @@ Jaeger, appendix V); phi follows from its integral over time. A passage is a sum
 """
 
 import math
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 from tehl_taichi.engine.fftw import half_back, transform, transform_back
-from tehl_taichi.fatigue.stress.thermal_stress import WORKERS, SurfaceHeat, depth_after, erfcx, fast_length
+from tehl_taichi.fatigue.stress.thermal_stress import SurfaceHeat, depth_after, erfcx, fast_length
 from tehl_taichi.fatigue.stress.wave_table import WaveTable
+from tehl_taichi.fatigue.stress.workers import WORKERS, pool
 
 LEAD = 4.0  # a: the contact stands at its first state for this way of the body, which is cold before
 REACH = 9.0  # waves with k z beyond this do not reach the depth z (exp(-9) = 1e-4)
@@ -154,8 +154,8 @@ class ThermalBelow(SurfaceHeat):
         """Function of the entry (and of the rows that are wanted) that gives sxx, syy, szz, sxy, sxz, syz, each (columns,
         ny+1), at `depth`."""
         w, held = self.waves, np.zeros((6, self.k.size, self.entries), np.complex64)
-        with ThreadPoolExecutor(WORKERS) as pool:
-            for cut, (parts, newest) in self._responses(depth, pool.map):
+        with pool(w.k.size) as workers:
+            for cut, (parts, newest) in self._responses(depth, workers.map):
                 turns = _with_newest(self._turns(cut), newest)
                 held[:, cut] = self._back((turns.swapaxes(1, 2) @ parts).swapaxes(0, 1), self.kx[cut])
 

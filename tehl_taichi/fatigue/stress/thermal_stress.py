@@ -9,19 +9,17 @@ too): Theta = T sqrt(D)/(sqrt(s + D k^2) + |k| sqrt(D)) in Laplace space, D the 
 """
 
 import math
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from tehl_taichi.engine import cores
 from tehl_taichi.engine.fftw import half_back, transform, transform_back
 from tehl_taichi.fatigue.stress.wave_table import WaveTable
 from tehl_taichi.fatigue.stress.waves import Waves
+from tehl_taichi.fatigue.stress.workers import pool
 
 SERIES = 32  # terms of Weideman's rational series
 TAPER = 1.0  # a: behind the grid its last temperatures fade over this length
 CHUNK = 1000  # wave numbers convolved at once
-WORKERS = min(4, cores.available())  # threads of a fatigue pass (transforms run outside the interpreter's lock)
 
 
 def erfcx(x):
@@ -105,8 +103,8 @@ class SurfaceHeat:
         def put(n):
             out[n] = self.waves.spectrum(self._extended(self.rises[n] - since))
 
-        with ThreadPoolExecutor(WORKERS) as pool:
-            list(pool.map(put, range(len(out))))
+        with pool(self.waves.k.size) as workers:
+            list(workers.map(put, range(len(out))))
         return out
 
 
@@ -161,8 +159,8 @@ def _convolved(changes, waves, diffusivity, speed, dt):
         theta = transform_back(transform(moving, size) * reaches(k[cut])[0][0])[:, :entries]
         flat[:, cut] = (theta * turn.conj()).T
 
-    with ThreadPoolExecutor(WORKERS) as pool:
-        list(pool.map(convolve, range(0, k.size, CHUNK)))
+    with pool(k.size) as workers:
+        list(workers.map(convolve, range(0, k.size, CHUNK)))
     return changes
 
 

@@ -76,12 +76,13 @@ class WindowedHeat:
 
     def _run_rows(self, depth, rows):
         """(rows, entries, columns of the run, 6) Pa, kept for windows of other factors: waves have values between rows, too."""
-        places = tuple(np.asarray(rows) / self.reader.window.factor)
+        places = np.asarray(rows) / self.reader.window.factor
         kept, nodes = self.reader.kept_heat, self.nodes
-        key = self.passage.surface.name, self.reader.averaged, float(depth), places, nodes.front, nodes.x.size
-        if key not in kept:
-            kept[key] = self.base.rows(depth, np.array(places)).astype(np.float32)
-        return kept[key]
+        keys = [(self.passage.surface.name, self.reader.averaged, float(depth), float(place), nodes.front, nodes.x.size)
+                for place in places]
+        if not all(key in kept for key in keys):
+            kept |= zip(keys, self.base.rows(depth, places).astype(np.float32))
+        return np.stack([kept[key] for key in keys])
 
     def _within(self, rows):
         """(places among `rows`, rows of the window) of those that lie in it."""
