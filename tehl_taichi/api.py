@@ -95,7 +95,7 @@ def run(scene: "Scene | Name", path: Name | None = None, *, force: bool = False,
     threads : int, optional
         Threads of the CPU; default: those of an earlier start in this process, otherwise all.
     arch : str, optional
-        "cpu"; "cuda" is experimental and slower. Default: the environment variable TEHL_ARCH, otherwise "cpu".
+        "cpu"; "cuda" and "vulkan" are experimental. Default: the environment variable TEHL_ARCH, otherwise "cpu".
     progress : Progress, optional
         Receives stages, steps and warnings while the run lasts; default: silent.
 

@@ -8,6 +8,9 @@ Taichi's min and max return a number if the other argument is NaN: three instruc
 two is one instruction (laws of a film 2.9 -> 2.2 ms per call, 256x64x9); if one is NaN, it returns the second argument.
 """
 
+import numbers
+
+from tehl_taichi.engine import runtime
 from tehl_taichi.engine.language import ti
 
 LOG2E = 1.4426950408889634
@@ -29,11 +32,18 @@ def maximum(a, b):
     return ti.select(a > b, a, b)
 
 
+def _without_library(x):
+    """Whether there is no function of double precision for this value of a kernel: Vulkan has none."""
+    return runtime.chosen() == "vulkan" and not isinstance(x, numbers.Number)
+
+
 @ti.func
 def exp_lanes(x):
     x = minimum(maximum(x, -700.0), 700.0)
     shifted = x * LOG2E + SHIFT
     n = shifted - SHIFT
+    if ti.static(_without_library(x)):  # and a compiler that takes n for x LOG2E
+        n = ti.floor(x * LOG2E + 0.5)
     r = (x - n * LN2_HIGH) - n * LN2_LOW
     r2 = r * r
     r4 = r2 * r2
@@ -42,7 +52,10 @@ def exp_lanes(x):
     high = ((c[8] + c[9] * r) + (c[10] + c[11] * r) * r2) + (c[12] + c[13] * r) * r4
     out = low + high * (r4 * r4)
     for u in ti.static(range(x.n)):
-        out[u] = ti.bit_cast(ti.bit_cast(out[u], ti.i64) + (ti.bit_cast(shifted[u], ti.i64) << 52), ti.f64)
+        power = ti.bit_cast(shifted[u], ti.i64)
+        if ti.static(_without_library(x)):
+            power = ti.cast(n[u], ti.i64)
+        out[u] = ti.bit_cast(ti.bit_cast(out[u], ti.i64) + (power << 52), ti.f64)
     return out
 
 
@@ -67,6 +80,17 @@ def log_lanes(x):
 
 
 @ti.func
+def root(x, power: ti.template()):
+    """x^(1/power) of positive lanes, by the library where there is one."""
+    out = x
+    if ti.static(_without_library(x)):
+        out = exp_lanes(log_lanes(x) / power)
+    else:
+        out = ti.exp(ti.log(x) / power)
+    return out
+
+
+@ti.func
 def within(value, a, b):
     """`value` limited to the range between a and b."""
     return minimum(maximum(value, minimum(a, b)), maximum(a, b))
@@ -81,6 +105,8 @@ def exp(x):
     out = x
     if ti.static(_lanes(x)):
         out = exp_lanes(x)
+    elif ti.static(_without_library(x)):
+        out = exp_lanes(ti.Vector([x]))[0]
     else:
         out = ti.exp(x)
     return out
@@ -91,6 +117,8 @@ def log(x):
     out = x
     if ti.static(_lanes(x)):
         out = log_lanes(x)
+    elif ti.static(_without_library(x)):
+        out = log_lanes(ti.Vector([x]))[0]
     else:
         out = ti.log(x)
     return out

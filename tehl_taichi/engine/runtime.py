@@ -17,7 +17,7 @@ from tehl_taichi import __version__
 from tehl_taichi.engine import allocator, cores, float_mode, user_folders
 from tehl_taichi.errors import RuntimeUnavailable
 
-ARCHES = ("cpu", "cuda")  # that the kernels have been checked on
+ARCHES = ("cpu", "cuda", "vulkan")  # that the kernels have been checked on
 DRIVER = "libcuda.so.1"
 MOST_THREADS = 1024
 _started = {}
@@ -106,8 +106,8 @@ def _driven():
 def start(arch=None, threads=None):
     """Start Taichi. Returns a dict with the actual arch, threads, taichi (version) and cache (folder).
 
-    arch: "cpu", or "cuda" (experimental, slower at present: docs/performance.md), default see :func:`chosen`; threads: number
-    of CPU threads, or None for all available cores. Raises RuntimeUnavailable if arch or threads are not available, if Taichi
+    arch: "cpu", or "cuda" or "vulkan" (experimental: docs/decisions/06), default see :func:`chosen`; threads: number of CPU
+    threads, or None for all available cores. Raises RuntimeUnavailable if arch or threads are not available, if Taichi
     was started with others, or if it runs in another thread or in the parent of this forked process.
     """
     check(arch, threads)
@@ -139,9 +139,9 @@ def _start(arch, threads):
             raise RuntimeUnavailable(f"arch = {arch!r} is not available: the driver finds no graphics card")
         attempt(rolled_loops.keep_rolled)
         attempt(functools.partial(float_mode.launching, ti.lang.impl.get_runtime().prog, float_mode.now()))
-    if arch == "cuda":
-        warnings.warn("arch = 'cuda' is experimental: it gives equal results but is slower (a step of 512x128 took an H200 six "
-                      "times as long as one core); see docs/performance.md", RuntimeWarning, stacklevel=2)
+    if arch != "cpu":
+        warnings.warn(f"arch = {arch!r} is experimental: results are those of the cores, but jobs that are cells have not been "
+                      "timed on a card yet; see docs/decisions/06-graphics-cards.md", RuntimeWarning, stacklevel=2)
     _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)), cache=cache)
     _home = os.getpid(), threading.get_ident()
 
@@ -193,7 +193,7 @@ def alone(work):
     Starting a loop on Taichi's threads takes 20 us immediately after another one, 50 to 100 us after other work; a copy takes
     30 ns per vector.
     """
-    return not by_phases() and (ensure()["threads"] == 1 or _grown * work < WORTH_THREADS)
+    return not (by_phases() or by_cells()) and (ensure()["threads"] == 1 or _grown * work < WORTH_THREADS)
 
 
 def by_phases():
@@ -201,6 +201,12 @@ def by_phases():
     at once and so must not wait for each other.
     """
     return ensure()["arch"] != "cpu"
+
+
+def by_cells():
+    """Whether jobs are cells (:mod:`tehl_taichi.pressure.cells`), not rows: on a graphics card, unless the environment variable
+    TEHL_CELLS is 0, and on the cores where it is 1."""
+    return os.environ.get("TEHL_CELLS", "1" if by_phases() else "0") == "1"
 
 
 @contextlib.contextmanager

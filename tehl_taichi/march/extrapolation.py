@@ -12,6 +12,7 @@ by place, order 1 8e-5 / 9e-4 / 1e-4 / 2e-5 / 2e-5 / 1e-3 / 3e-3 / 3e-3, orders 
 
 import numpy as np
 
+from tehl_taichi.engine import runtime
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.simd import (
     Flat,
@@ -163,6 +164,10 @@ class StateExtrapolation:
         v, F, order = self.levels, self.past.field, self.order
         self.places, self.ways, self.count = np.zeros(order + 1), np.zeros((order + 1, WAY)), np.zeros(1)
         self.weights, self.edges = np.zeros((order, order + 1)), np.zeros((self.rows[-1] + 1, v.nx + 1), np.float32)
+        if runtime.by_cells():
+            from tehl_taichi.march import cell_guess
+
+            cell_guess.stand_in()
         self._extrapolate = v.launch(extrapolate, F, v.G, order, self.places, self.ways, self.weights, self.edges, self.by_edge,
                                      work=WORK)
         self._judge = v.launch(judge, v.S, F, v.G, order, self.places, self.edges, work=WORK)

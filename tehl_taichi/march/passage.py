@@ -23,7 +23,7 @@ from tehl_taichi.march.substeps import Substeps
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.isothermal import OneTemperature
 from tehl_taichi.pressure.levels import Levels
-from tehl_taichi.pressure.newton import RISES, PressureSolver
+from tehl_taichi.pressure.newton import RISES, pressure_solver
 from tehl_taichi.pressure.storage_term import Storage
 from tehl_taichi.scene import memory_demand
 from tehl_taichi.scene.feature_wording import where
@@ -69,7 +69,7 @@ class Passage:
         self.heat = None if scene.isothermal else FilmHeat(self.levels, self.dT * scales.t)
         # the film whose density and viscosity the pressure is solved for: they follow the temperatures, where there are any
         self.film = self.heat or OneTemperature(self.levels)
-        self.solver = PressureSolver(self.levels, self.film, RISES)
+        self.solver = pressure_solver(self.levels, self.film, RISES)
         self._restore(state, done)
 
     def _restore(self, state, done):

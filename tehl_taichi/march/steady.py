@@ -18,7 +18,7 @@ from tehl_taichi.march.pseudo_transient import check, march_to_rest
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.isothermal import OneTemperature
 from tehl_taichi.pressure.levels import Levels
-from tehl_taichi.pressure.newton import PressureSolver, SolveReport
+from tehl_taichi.pressure.newton import PressureSolver, SolveReport, pressure_solver
 
 FIRST_CELLS = 64  # along x of the first grid: fine enough for a film from Hertz, cheap enough not to matter
 LEAST_CELLS = 32  # of the first grid where that makes one grid more, for the error of coarse runs
@@ -61,7 +61,7 @@ def solve_steady(scene, scales, nx, ny, look=None, full=False):
         solver = heat = levels = None  # give their tables to the next grid
         finest, levels = size[0] == nx, Levels(scene, scales, *size, full)
         levels.put(fields.GAP0, smooth_with(levels, scene.standing))
-        solver = PressureSolver(levels, OneTemperature(levels))
+        solver = pressure_solver(levels, OneTemperature(levels))
         solver.border = border_of(levels)
         report = from_nothing(solver) if P is None else _from_coarser(solver, P, H0)
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error

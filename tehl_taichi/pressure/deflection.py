@@ -147,3 +147,12 @@ class Bending:
         """Compute H from the pressure in the table and the rigid approach H0."""
         self.H0[0] = H0
         self.team.run(self.launch)
+
+
+def bending(levels):
+    """What sets the film of `levels`."""
+    if runtime.by_cells():
+        from tehl_taichi.pressure.cells.bending import CellBending
+
+        return CellBending(levels)
+    return Bending(levels)

@@ -5,6 +5,7 @@ Mobility of the face: log-mean of 1/eta, geometric mean of rho, and of H^3 the :
 separately, and on the Newtonian stress of sliding, with the face's own viscosity and film.
 """
 
+from tehl_taichi.engine.elementary import root
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.simd import V, above, below
 from tehl_taichi.laws.sheared_flow import either
@@ -193,7 +194,7 @@ def easing(over, power: ti.template()):
     """
     share, own, by_film = V(1.0), V(1.0), V(0.0)
     if over.max() > 1.0:
-        stress = ti.exp(ti.log(over) / power)
+        stress = root(over, power)
         carried = 1.0 + power * (stress - 1.0)
         share, own, by_film = carried / over, stress / over, (carried - stress) / over
     return share, own, by_film

@@ -6,7 +6,7 @@ from tehl_taichi.engine import field_pool, runtime, simd
 from tehl_taichi.engine.taichi_patches.prebound import Carriers, bind
 from tehl_taichi.pressure import balances, fields, precision
 from tehl_taichi.pressure.conditions import conditions
-from tehl_taichi.pressure.deflection import Bending
+from tehl_taichi.pressure.deflection import bending
 from tehl_taichi.pressure.grids import COARSEST_2D, Grids, coarsen, columns, load_weights, table_columns
 from tehl_taichi.pressure.level_table import LevelNumbers
 
@@ -29,7 +29,7 @@ class Levels(Grids):
         self.numbers = LevelNumbers(self, self.conditions, scene.rheology.film_floor)
         self.G, self.n = self.numbers.G, columns(nx, ny) * simd.W
         self._lease_tables()
-        self.bending, self._carriers = Bending(self), Carriers()
+        self.bending, self._carriers = bending(self), Carriers()
         self._set_masks()
 
     def _lease_tables(self):
@@ -96,7 +96,7 @@ class Levels(Grids):
         arguments.
         """
         shape = count, self.nx + 1, self.ny + 1
-        array = self._carriers.carry(kernel, shape, lambda array: bind(kernel, self.S, self.G, *args, array))
+        array = self._carriers.carry(kernel, shape, lambda array: self._bound(kernel, self.S, self.G, *args, array))
         return array.copy().swapaxes(1, 2)
 
     def launch(self, kernel, *args, work=1):
@@ -105,7 +105,14 @@ class Levels(Grids):
         `alone` is equal for the smaller grids of a start and the finest one, because each variant of a kernel takes time to
         trace.
         """
-        return bind(kernel, *args, runtime.alone(work * self.most_columns))
+        return self._bound(kernel, *args, runtime.alone(work * self.most_columns))
+
+    def _bound(self, kernel, *args):
+        if runtime.by_cells():
+            from tehl_taichi.pressure.cells import twins
+
+            return twins.launch(self, kernel, *args)
+        return bind(kernel, *args)
 
     @property
     def most_columns(self):

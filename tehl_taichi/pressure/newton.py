@@ -10,8 +10,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tehl_taichi.engine import runtime
 from tehl_taichi.pressure import balances, fields, reynolds
 from tehl_taichi.pressure.equations import Equations
+from tehl_taichi.pressure.linear import red_black
 from tehl_taichi.pressure.linear.interface import RightHandSide
 from tehl_taichi.pressure.linear.multigrid_gmres import MultigridGmres
 
@@ -61,6 +63,15 @@ class SolveReport:
         """This report, with the work of earlier ones added."""
         newton, cycles = (sum(getattr(one, name) for one in (self, *others)) for name in ("newton", "cycles"))
         return replace(self, newton=newton, cycles=cycles)
+
+
+def pressure_solver(levels, film, most_rises=np.inf, carries_load=True):
+    """The :class:`PressureSolver` of this machine: with jobs that are rows, or cells."""
+    if runtime.by_cells() and levels.scene.numerics.sweep != red_black.SWEEP:
+        from tehl_taichi.pressure.cells.newton import CellNewton
+
+        return CellNewton(levels, film, most_rises, carries_load)
+    return PressureSolver(levels, film, most_rises, carries_load=carries_load)
 
 
 def or_not_converged(solve):
@@ -220,7 +231,11 @@ class PressureSolver:
         self._scale_mass(self.b)
         load = -self.load_error * self.load if self.carries_load else None
         found = self.linear.solve(RightHandSide(self.b, self.mass_row, load, krylov_tolerance, self.change))
-        return np.append(found.pressure * self.inside, self.levels.linear.type(found.approach)), found.iterations
+        return self._step(found), found.iterations
+
+    def _step(self, found):
+        """The change of the pressure that a linear solve has found, and that of H0 behind it."""
+        return np.append(found.pressure * self.inside, self.levels.linear.type(found.approach))
 
     def _scale_mass(self, b):
         """Scale the mass component like the sum of all rows, but at most to their norm.

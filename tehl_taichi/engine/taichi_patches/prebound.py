@@ -10,23 +10,32 @@ import numpy as np
 from tehl_taichi.engine import runtime
 
 
-def bind(kernel, *args):
+def bind(kernel, *args, writes=None):
     """A launch of `kernel` with these arguments, callable without any, as often as wanted.
 
     Arrays are bound by address: they are held here and their contents may change. Taichi's own call inspects every argument
     again, about 40 us per array, more than most kernels run; here the argument record is made once. If the internals of the
     pinned Taichi are not found, the launch is the plain call; also on a graphics card, which writes its own addresses into the
-    record.
+    record. If jobs are cells, small arrays stay there; writes: numbers of the arguments that the kernel fills, None: unknown.
     """
     global _binding
     started = time.perf_counter()
     try:
         with _uncollected():
-            launch = functools.partial(kernel, *args) if runtime.by_phases() else _recorded(kernel, args)
+            launch = _elsewhere(kernel, args, writes) if runtime.by_cells() or runtime.by_phases() else _recorded(kernel, args)
     except (AttributeError, TypeError):
         launch = functools.partial(kernel, *args)
     _binding += time.perf_counter() - started
     return launch if _watched is None else _timed(kernel, args, launch)
+
+
+def _elsewhere(kernel, args, writes):
+    """A launch on a graphics card."""
+    if writes is None or not runtime.by_cells():
+        return functools.partial(kernel, *args)
+    from tehl_taichi.engine import resident
+
+    return resident.bind(kernel, args, writes)
 
 
 @contextlib.contextmanager

@@ -15,7 +15,7 @@ from tehl_taichi.march.zoom.window_levels import WindowLevels
 from tehl_taichi.march.zoom.zoomed_reader import EXTREMES
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.isothermal import OneTemperature
-from tehl_taichi.pressure.newton import RISES, PressureSolver
+from tehl_taichi.pressure.newton import RISES, pressure_solver
 from tehl_taichi.pressure.storage_term import ORDER, Storage
 from tehl_taichi.values.refining import Refining
 
@@ -37,7 +37,7 @@ class WindowPassage:
         self.dT = whole / window.factor
         self.heat = WindowHeat(base, self.levels, self._refining, self.given, whole * base.scales.t) if base.heat else None
         self.film = self.heat.film if self.heat else OneTemperature(self.levels)
-        self.solver = PressureSolver(self.levels, self.film, RISES, carries_load=False)
+        self.solver = pressure_solver(self.levels, self.film, RISES, carries_load=False)
         self.guess = TwoFrames(GUESSED, self._refining(0, window.all_nx + 1).pressure(base.at(0).P))
         self.parts, self.old = Substeps(), []
         self.resting = 0, self._refining(0, window.all_nx + 1).smooth(self.base.at(0).mass)

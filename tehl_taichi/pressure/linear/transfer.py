@@ -84,29 +84,34 @@ def transfer_weights(J: ti.template(), G: ti.template(), l, t):
 
 
 @ti.func
+def restrict_column(J: ti.template(), c, k, n2, t, lower, centre, upper):
+    """RES of column c of coarse block t from the columns around k, by the weights of its rows."""
+    a, b, before = weighted_x(J, k), weighted_x(J, k + n2), ti.cast(0.0, J.dtype)
+    if t > 0:
+        before = weighted_x(J, k - n2)[W - 1]
+    out = L(J, 0.0)
+    for u in ti.static(range(W)):
+        if ti.static(2 * u < W):
+            down = before
+            if ti.static(u > 0):
+                down = a[2 * u - 1]
+            out[u] = lower[u] * down + centre[u] * a[2 * u] + upper[u] * a[2 * u + 1]
+        else:
+            down = a[W - 1]
+            if ti.static(2 * u > W):
+                down = b[2 * u - W - 1]
+            out[u] = lower[u] * down + centre[u] * b[2 * u - W] + upper[u] * b[2 * u - W + 1]
+    J[RES, c] = ti.select(is_kind(J, c, DRY_KIND), L(J, 0.0), out + out)
+
+
+@ti.func
 def restrict_block(J: ti.template(), G: ti.template(), l, t):
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
     n2 = nx + 1
     lower, centre, upper = transfer_weights(J, G, l, t)
     for I in range(mx + 1):
-        c, k = coff + t * (mx + 1) + I, off + 2 * t * n2 + 2 * I
-        a, b, before = weighted_x(J, k), weighted_x(J, k + n2), ti.cast(0.0, J.dtype)
-        if t > 0:
-            before = weighted_x(J, k - n2)[W - 1]
-        out = L(J, 0.0)
-        for u in ti.static(range(W)):
-            if ti.static(2 * u < W):
-                down = before
-                if ti.static(u > 0):
-                    down = a[2 * u - 1]
-                out[u] = lower[u] * down + centre[u] * a[2 * u] + upper[u] * a[2 * u + 1]
-            else:
-                down = a[W - 1]
-                if ti.static(2 * u > W):
-                    down = b[2 * u - W - 1]
-                out[u] = lower[u] * down + centre[u] * b[2 * u - W] + upper[u] * b[2 * u - W + 1]
-        J[RES, c] = ti.select(is_kind(J, c, DRY_KIND), L(J, 0.0), out + out)
+        restrict_column(J, coff + t * (mx + 1) + I, off + 2 * t * n2 + 2 * I, n2, t, lower, centre, upper)
 
 
 @ti.func

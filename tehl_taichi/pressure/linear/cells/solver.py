@@ -1,0 +1,261 @@
+"""The linear solve with cells as jobs: its fields and its kernels, a few launches an iteration that wait for nothing."""
+
+import numpy as np
+
+from tehl_taichi.engine import field_pool, simd
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.resident import there
+from tehl_taichi.engine.simd import Flat, LinearFlat, Table, W
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.linear import convolution as symbols_of
+from tehl_taichi.pressure.linear import gmres, operations
+from tehl_taichi.pressure.linear.cells import lines, transfer, vectors
+from tehl_taichi.pressure.linear.cells.convolution import Convolutions, convolve
+from tehl_taichi.pressure.linear.cells.sizes import Level
+from tehl_taichi.pressure.linear.cells.sums import CHUNKS, GROUPS, add_up, products
+from tehl_taichi.pressure.linear.gmres import (
+    COUNT,
+    DOT_SUM,
+    FIXED,
+    LEFT,
+    LIFT_LOAD,
+    LOAD,
+    LOAD_SUM,
+    MASS,
+    MASS_SUM,
+    NORM,
+    RISE,
+    SCALARS,
+    TOLERANCE,
+)
+from tehl_taichi.pressure.linear.preconditioner import REST, REST_LINE, STORED, STORED_LINE
+from tehl_taichi.pressure.linear.solver import dense_entries
+
+ENOUGH, CONTINUES = 1, 0
+
+
+class Memory:
+    """What kernels see of a solver, all of it constant: fields S, J (see :mod:`fields`), V (vectors), D (inverse of the
+    coarsest level); levels; K: deflection, Q: distributions (:class:`Convolutions`); lines; most: iterations; bounds of the
+    kinds."""
+
+    def __init__(self, levels, symbols):
+        v = self.owner = levels
+        self.S, self.J, self.most = v.S, v.J, v.scene.numerics.krylov_max
+        rows = operations.BASIS + 2 * self.most + 2
+        lease = dict(precision=v.precision, clean=False)
+        self.V = field_pool.lease(self, rows, W, v.most_columns, **lease)
+        self.D = field_pool.lease(self, 1, W, max(dense_entries(v.sizes, v.dense), 1), **lease)
+        self.levels = [Level(v, l) for l in range(len(v.sizes))]
+        self.fine, self.dense = self.levels[0], [self.levels[l] for l in v.dense]
+        self.solved = [self.levels[l] for l in (*v.lines, *v.dense)]
+        self.K = Convolutions(v, symbols[:1], v.precision, v.linear)
+        self.Q = Convolutions(v, symbols[1:], v.precision, v.linear)
+        self.lines = lines.Lines(v, symbols[1:])
+        self.bounds = (REST, *STORED) if v.ny else (REST_LINE, *STORED_LINE)
+
+
+@ti.kernel
+def bands(F: ti.template(), G: Table):
+    """Kinds of all nodes, matrices of all lines."""
+    for n in ti.static(range(len(F.solved))):
+        vectors.classify(F.S, F.J, G, F.solved[n], *ti.static(F.bounds))
+    lines.fill_bands(F.J, F.lines)
+    lines.gather(F.J, F.lines)
+
+
+@ti.kernel
+def reduce(F: ti.template(), n: ti.i32):
+    """Step n of the reduction of all lines."""
+    lines.reduce_matrices(F.lines, n)
+
+
+@ti.kernel
+def invert(F: ti.template()):
+    lines.invert(F.lines)
+
+
+@ti.kernel
+def line_solutions(F: ti.template()):
+    lines.solve(F.J, F.lines)
+
+
+@ti.kernel
+def precondition(F: ti.template(), G: Table, parts: Table, groups: Table):
+    """RES of the finest level -> COR, and the parts of its load."""
+    for l in ti.static(range(len(F.levels) - 1)):
+        transfer.restrict(F.J, G, F.levels[l], F.levels[l + 1])
+    for level in ti.static(F.dense):
+        vectors.dense(F.J, F.D, level)
+    lines.solve(F.J, F.lines)
+    vectors.spread_lines(F, F.Q)
+    convolve(F.Q)
+    vectors.collect(F, F.Q, F.lines)
+    for n in ti.static(range(len(F.levels) - 1)):
+        transfer.prolong(F.J, F.levels[ti.static(len(F.levels) - 2 - n)], F.levels[ti.static(len(F.levels) - 1 - n)])
+    vectors.load_parts(F, F.fine, parts)
+
+
+@ti.kernel
+def direct(F: ti.template(), N: Table, parts: Table, groups: Table, totals: Table):
+    """Border of the preconditioned vector, then the newest direction."""
+    add_up(parts, groups, totals, LOAD_SUM, DOT_SUM)
+    for _ in range(1):
+        gmres.border(N, totals, ti.cast(N[SCALARS, COUNT], ti.i32))
+    vectors.direct(F, N, F.K, F.most)
+
+
+@ti.kernel
+def multiply(F: ti.template(), N: Table):
+    """Jacobian times the direction."""
+    convolve(F.K)
+    vectors.rows(F, N, F.K, F.fine)
+
+
+@ti.func
+def project(F: ti.template(), N: ti.template(), parts: ti.template(), groups: ti.template(), totals: ti.template()):
+    products(F.V, parts, F.most, F.fine.columns, operations.OUTFLOW, operations.BASIS, N)
+    add_up(parts, groups, totals, 0, DOT_SUM + F.most)
+    for _ in range(1):
+        gmres.project(N, totals, ti.cast(N[SCALARS, COUNT], ti.i32))
+    vectors.update(F, N, F.fine)
+
+
+@ti.kernel
+def extend(F: ti.template(), N: Table, parts: Table, groups: Table, totals: Table) -> ti.i32:
+    """Take the product into the basis, projected twice. Returns ENOUGH or CONTINUES."""
+    for _ in ti.static(range(2)):
+        project(F, N, parts, groups, totals)
+    products(F.V, parts, 0, F.fine.columns, operations.OUTFLOW, operations.BASIS, N)
+    add_up(parts, groups, totals, 0, DOT_SUM)
+    for _ in range(1):
+        N[SCALARS, gmres.NEXT] = gmres.extend(N, totals, ti.cast(N[SCALARS, COUNT], ti.i32), F.most, False)
+    return ti.cast(N[SCALARS, gmres.NEXT], ti.i32)
+
+
+@ti.kernel
+def begin(F: ti.template(), N: Table, parts: Table, groups: Table, totals: Table, right: LinearFlat, outflow: LinearFlat,
+          load: ti.f64, fixed: ti.f64, tolerance: ti.f64):
+    """First vector of the basis."""
+    for _ in range(1):
+        N[SCALARS, COUNT], N[SCALARS, LOAD], N[SCALARS, FIXED], N[SCALARS, TOLERANCE] = -1.0, load, fixed, tolerance
+    vectors.start(F, F.fine, right, outflow)
+    products(F.V, parts, 0, F.fine.columns, operations.OUTFLOW, operations.BASIS, N)
+    add_up(parts, groups, totals, 0, DOT_SUM)
+    for _ in range(1):
+        N[SCALARS, MASS] = totals[0, MASS_SUM]
+        gmres.begin(N, totals)
+        N[SCALARS, NORM] = -1.0
+
+
+@ti.kernel
+def ones(F: ti.template()):
+    """RES for a change of H0."""
+    vectors.ones(F.J, F.fine)
+
+
+@ti.kernel
+def lift(F: ti.template(), N: Table, parts: Table, groups: Table, totals: Table):
+    """Keep the answer to a change of H0, and its load."""
+    vectors.lift(F, F.fine)
+    vectors.load_parts(F, F.fine, parts)
+    add_up(parts, groups, totals, LOAD_SUM, DOT_SUM)
+    for _ in range(1):
+        N[SCALARS, LIFT_LOAD] = totals[0, LOAD_SUM]
+
+
+@ti.kernel
+def finish(F: ti.template(), N: Table, out: LinearFlat, numbers: Flat):
+    """The solution; numbers: iterations, norm at the start and at the end, change of H0."""
+    vectors.finish(F, N, F.fine, F.most, out)
+    for _ in range(1):
+        for n, which in ti.static(enumerate((COUNT, gmres.BETA, LEFT, RISE))):
+            numbers[n] = N[SCALARS, which]
+
+
+@ti.kernel
+def given(F: ti.template(), N: Table, right: LinearFlat, rise: ti.f64):
+    """A given direction."""
+    for _ in range(1):
+        N[SCALARS, COUNT], N[SCALARS, RISE] = -1.0, rise
+    vectors.given(F.J, F.K, right)
+
+
+@ti.kernel
+def copy(F: ti.template(), N: Table, out: LinearFlat):
+    vectors.copy(F, N, F.fine, out)
+
+
+class CellKrylov:
+    """FGMRES for the linearised problem in the tables of `levels` (see :class:`Levels`); out: the last result, an array of
+    Taichi."""
+
+    def __init__(self, levels):
+        v = self.levels = levels
+        shapes = symbols_of.transform_sizes(v.sizes, v.lines)
+        self.symbols = [symbols_of.deflection(shapes[0], v), *(symbols_of.distribution(c, v) for c in shapes[1:])]
+        self.memory = Memory(v, self.symbols)
+        self.most, sums = self.memory.most, DOT_SUM + self.memory.most
+        self.out = ti.ndarray(ti.f32 if v.precision == "f32" else ti.f64, v.n)
+        sizes = (gmres.TRIANGLE + self.most, self.most + 16), (sums, CHUNKS), (sums, GROUPS), (1, sums)
+        self.numbers, self.parts, self.groups, self.totals = (ti.ndarray(ti.f64, size) for size in sizes)
+        self.dense = np.zeros((dense_entries(v.sizes, v.dense), W), v.linear)
+        weights = v.vector(fields.WEIGHT).astype(v.linear).reshape(-1, W)
+        self._fill(self.memory.V, operations.LOADING, 0, weights)
+        self._fill(v.J, fields.SCALE, self.memory.fine.first, np.ones_like(weights))
+
+    def _fill(self, field, row, first, values):
+        simd.fill(*simd.one_of((field,), field), row, first, values)
+
+    def set_dense(self, inverse, place):
+        """Inverse (nodes, nodes) of the coarsest level, of which node n is number place[n] in the order of the table."""
+        size = self.memory.levels[-1].columns * W
+        whole = np.zeros((size, size), self.levels.linear)
+        whole[np.ix_(place, place)] = inverse
+        self.dense[:] = whole.reshape(-1, W, size).transpose(0, 2, 1).reshape(-1, W)
+        self._fill(self.memory.D, 0, 0, self.dense)
+
+    def build(self):
+        """Kinds and lines of the linearised problem."""
+        bands(self.memory, there(self.levels.G))
+        for n in range(len(self.memory.lines.distances)):
+            reduce(self.memory, n)
+        invert(self.memory)
+
+    def solve_lines(self):
+        """SOL of all levels with lines from their RES."""
+        line_solutions(self.memory)
+
+    def _sums(self):
+        return self.numbers, self.parts, self.groups, self.totals
+
+    def _precondition(self):
+        precondition(self.memory, there(self.levels.G), self.parts, self.groups)
+
+    def lift(self):
+        """Take the answer of the preconditioner to a change of H0, for the bordered system."""
+        ones(self.memory)
+        self._precondition()
+        lift(self.memory, *self._sums())
+
+    def solve(self, right, outflow, load, tolerance):
+        """Solve for the rows `right`, the net outflow that they have with the weights `outflow` and the component `load`; the
+        rest as :meth:`tehl_taichi.pressure.linear.solver.Krylov.solve`. Arrays of numpy, or of Taichi."""
+        begin(self.memory, *self._sums(), right, outflow, load or 0.0, float(load is None), tolerance)
+        enough = CONTINUES
+        while enough == CONTINUES:
+            self._precondition()
+            direct(self.memory, *self._sums())
+            multiply(self.memory, self.numbers)
+            enough = extend(self.memory, *self._sums())
+        found = np.zeros(4)
+        finish(self.memory, self.numbers, self.out, found)
+        count, beta, left, rise = found
+        return float(rise), int(count), float(left / beta) if beta > 0 else 0.0
+
+    def apply(self, z, rise):
+        """Scaled Jacobian rows times the change z of the pressure (in the order of the table) and `rise` of H0."""
+        given(self.memory, self.numbers, np.ascontiguousarray(z, self.levels.linear), rise)
+        multiply(self.memory, self.numbers)
+        copy(self.memory, self.numbers, self.out)
+        return self.out.to_numpy()
