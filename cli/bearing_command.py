@@ -8,7 +8,7 @@ from tehl_cli.bearing_features import feature_of
 from tehl_cli.bearing_options import DIMENSIONS, SCANNED, contacts, loads
 from tehl_cli.idle_options import DRAWS, say_idle
 from tehl_cli.live_display import Live, say
-from tehl_cli.scene_options import given_by
+from tehl_cli.scene_options import changes_of
 from tehl_cli.shared_options import sharing
 from tehl_cli.stdout import print_json, put
 
@@ -73,7 +73,7 @@ def _compute(which, context, own, scene, figure, as_json, quiet, curves, format,
     if feature is None and scene is None:
         say_idle(context, "nothing passes without --dent, --scan or --scene", "on", "steady")
     with Live(quiet, curves) as live:
-        found = _found(which, own, live, feature=feature, scene=scene, **shared)
+        found = _compute_bearing(which, own, live, feature=feature, scene=scene, **shared)
     if figure:
         say(str(found.plot(**vars(page))))
     print_json(found.to_dict()) if as_json else print_bearing(found)
@@ -84,12 +84,12 @@ def _compute(which, context, own, scene, figure, as_json, quiet, curves, format,
                            "--grid or --set with a new --out")
 
 
-def _found(which, own, live, oil, temperature, thermal, grid, set_, out, **shared):
+def _compute_bearing(which, own, live, oil, temperature, thermal, grid, set_, out, **shared):
     """Compute the bearing that the options describe."""
     import tehl_taichi as tehl
 
     dimensions = {**own, **{key: shared.pop(key) for key in DIMENSIONS}}
-    changes = given_by({"oil.name": oil, "temperature": temperature, "thermal.on": thermal}, grid, set_ or [])
+    changes = changes_of({"oil.name": oil, "temperature": temperature, "thermal.on": thermal}, grid, set_ or [])
     return tehl.bearing(which, dimensions=dimensions, changes=changes, folder=out, progress=live, **shared)
 
 

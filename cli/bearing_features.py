@@ -32,9 +32,9 @@ def _parts(text):
 def scan_of(path, unit, pixel):
     """Feature of a --scan: a map or a profile with its form removed and its rim faded out."""
     from tehl_taichi.scene.feature import Feature
-    from tehl_taichi.scene.scan_scene import scanned
+    from tehl_taichi.scene.scan_scene import scan_keys
 
-    return Feature(**scanned(path, unit or "", metres("--pixel", pixel)))
+    return Feature(**scan_keys(path, unit or "", metres("--pixel", pixel)))
 
 
 def feature_of(dent, scan, unit, pixel):

@@ -19,7 +19,7 @@ def of(name):
 
 def check(name):
     """Raise StoreError if the page has no place for the table of a suite."""
-    _around(name)
+    _split_page(name)
 
 
 def write(name, columns, rows, keys=0):
@@ -29,12 +29,12 @@ def write(name, columns, rows, keys=0):
     """
     from tehl_taichi.disk import files
 
-    before, now, after = _around(name)
+    before, now, after = _split_page(name)
     old = _rows(now)[2:] if keys else []
     lines = [columns, ["---"] * len(columns), *_merged(old, [list(map(_cell, row)) for row in rows], keys)]
     table = "\n".join(f"| {' | '.join(line)} |" for line in lines)
     partly = " Other rows are of an earlier command." if len(lines) > len(rows) + 2 else ""
-    with files.blamed(of(name)):
+    with files.disk_errors(of(name)):
         files.replace(of(name), f"{before}\n{_caption(partly)}\n\n{table}\n{after}".encode())
 
 
@@ -55,13 +55,13 @@ def _cell(text):
     return " ".join(str(text).replace("|", "\\|").split())
 
 
-def _around(name):
+def _split_page(name):
     """(page up to the start mark of a suite's table, the table, page from its end mark)."""
     from tehl_taichi.disk import files
     from tehl_taichi.errors import StoreError
 
     mark, page = f"<!-- bench: {name} -->", of(name)
-    with files.blamed(page, "cannot read"):
+    with files.disk_errors(page, "cannot read"):
         text = files.text(page)
     before, begins, rest = text.partition(mark)
     now, ends, after = rest.partition(END)
@@ -77,12 +77,12 @@ def _caption(more=""):
     from tehl_taichi import __version__
     from tehl_taichi.commit import commit
 
-    command = shlex.join(["tehl", *_asked(sys.argv[1:])])
+    command = shlex.join(["tehl", *_significant_words(sys.argv[1:])])
     return textwrap.fill(f"`{command}`, version {__version__}, commit {commit()}; {measure.machine()}.{more}", WIDTH,
                          break_on_hyphens=False)
 
 
-def _asked(words):
+def _significant_words(words):
     """Words of a command that affect a figure."""
     after_folder = {at + 1 for at, word in enumerate(words) if word == FOLDER}
     return [word for at, word in enumerate(words)

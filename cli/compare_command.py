@@ -87,7 +87,7 @@ def _places(found):
             for row in found.rows if row.name in unequal]
     if rows:
         heads = ("quantity", "at", *found.names, *["change"] * pair)
-        list_table("differences between the results", heads, _once(rows), whole=True)
+        list_table("differences between the results", heads, _without_repeats(rows), whole=True)
     _legend(row[-1] for row in rows if pair)
     for name, places in found.without_result().items():
         put(f"no result in {name}: {', '.join(places)}")
@@ -95,7 +95,7 @@ def _places(found):
         put(f"equal in all: {'; '.join(same)}")
 
 
-def _once(rows):
+def _without_repeats(rows):
     """Rows whose repeated first word is left out."""
     return [(row[0] if n == 0 or rows[n - 1][0] != row[0] else "", *row[1:]) for n, row in enumerate(rows)]
 

@@ -70,7 +70,7 @@ def crack(
                        threads=threads)
     _show(result.summary, as_json)
     if keep:
-        say(str(crack_file.keep(result, run.store)))
+        say(str(crack_file.save(result, run.store)))
     if figures:
         from tehl_taichi.view.figures.crack_figures import write_crack
 
@@ -118,13 +118,13 @@ def _chords(shape):
 def _growth(found):
     """Rows of K_I and K_II over the crack length."""
     rows = [(f"K_I up to, range of K_II at {step['length_m'] * 1e6:.1f} um",
-             f"{step['K_I_max'] / 1e6:.3f}, {step['K_II_range'] / 1e6:.2f} MPa sqrt(m)") for step in _some(found["K"])]
+             f"{step['K_I_max'] / 1e6:.3f}, {step['K_II_range'] / 1e6:.2f} MPa sqrt(m)") for step in _some_steps(found["K"])]
     error = found.get("error_at_last_length")
     if error:
         rows.append(("their errors at the last length", f"{error['K_I_max'] / 1e6:.1g}, {error['K_II_range'] / 1e6:.1g}"))
     return rows + [("stop reason", found["why"])]
 
 
-def _some(steps):
+def _some_steps(steps):
     """The first, the last and a few steps between."""
     return [steps[n] for n in sorted({0, *range(0, len(steps), max(len(steps) // 4, 1)), len(steps) - 1})] if steps else []

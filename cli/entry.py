@@ -78,7 +78,7 @@ def _use_plugins():
         from tehl_taichi.values import plugins
 
         for name in files:
-            plugins.of_file(name)
+            plugins.use_plugins_of(name)
 
 
 def _sentence(error):

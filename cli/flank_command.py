@@ -8,7 +8,7 @@ from tehl_cli.amount import amount, number
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import DRAWS, say_idle
 from tehl_cli.live_display import Live, say
-from tehl_cli.scene_options import check_rows, given_by
+from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 
 
@@ -63,7 +63,7 @@ def flank(
     page = FigureStyle(format, dpi, figure_width, force=True)
     folder_figure.check(out, page, "flank") if figure else say_idle(context, "--no-figure draws none", *DRAWS)
     options = {"oil.name": oil, "temperature": temperature, "height": height, "width": width, "thermal.on": thermal}
-    changes = given_by(options, grid, set_ or [])
+    changes = changes_of(options, grid, set_ or [])
     base = find(scene) if scene else None
     check_rows(grid, changes, lambda: _line(gear, base, changes, steady))
     with Live(quiet, curves) as live:

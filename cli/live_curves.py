@@ -22,7 +22,7 @@ class Curves:
         """Store the drawn values of a snapshot."""
         row = shown_row(snapshot)
         if self.part is None:
-            self.part = around(snapshot.fields["pressure"][:, row])
+            self.part = contact_slice(snapshot.fields["pressure"][:, row])
             self.x = snapshot.x[self.part]
         self.curves = {name: snapshot.fields[name][self.part, row] * factor for name, _, factor, _, _ in SHOWN
                        if name in snapshot.fields}
@@ -98,7 +98,7 @@ def shown_row(snapshot):
     return int(np.argmin(np.abs(snapshot.y)))
 
 
-def around(p):
+def contact_slice(p):
     """Slice of the contact and its surroundings; p: pressure along the centreline."""
     loaded = np.flatnonzero(p >= LOADED * p.max())
     more = int(BESIDE * (loaded[-1] - loaded[0])) + 1

@@ -7,9 +7,9 @@ import typer
 from tehl_cli.amount import AUTO, number, whole_or_auto
 from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import Live, say
-from tehl_cli.scene_options import GRIDS, check_rows, given_by
+from tehl_cli.scene_options import GRIDS, changes_of, check_rows
 from tehl_cli.stdout import print_json, put
-from tehl_cli.timing import print_budget, timed
+from tehl_cli.timing import print_budget, time_budget
 
 
 def register(app):
@@ -73,7 +73,7 @@ def run(
     import tehl_taichi as tehl
     from tehl_taichi.store.load_scene import find_changed
 
-    changes = given_by(
+    changes = changes_of(
         {"srr": srr, "load": load, "hertz_pressure": hertz_pressure, "speed": speed, "temperature": temperature,
          "oil.name": oil, "height": height, "width": width, "kappa": kappa, "endurance": endurance, "time.steps": steps,
          "thermal.on": thermal,
@@ -89,7 +89,7 @@ def run(
     if dry_run:
         say_idle(context, "--dry-run prints text", "as_json")
         return _print_scene(description)
-    with Live(quiet, curves) as live, timed(live if timing else None) as budget:
+    with Live(quiet, curves) as live, time_budget(live if timing else None) as budget:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
         if zoom == AUTO and description.transient and done.finished:
             done = tehl.zoom(done.path, AUTO, threads=threads, progress=live)

@@ -10,14 +10,14 @@ WORDS = {("thermal.on", True): "--thermal", ("thermal.on", False): "--isothermal
 NAMES = {"oil.name": "oil"}  # of options that are not the end of their key
 
 
-def given_by(options, grid, settings):
+def changes_of(options, grid, settings):
     """{full key: value} of the used options and --set; SceneError if two of them contradict each other."""
-    from tehl_taichi.scene.aliases import settled
+    from tehl_taichi.scene.aliases import resolve
 
     used = [(key, value) for key, value in options.items() if value is not None]
     given = [(_typed(key, value), key, value) for key, value in used]
     given += [(f"--grid {grid}", key, value) for key, value in _grid(grid).items()]
-    return settled([*given, *_settings(settings)])
+    return resolve([*given, *_settings(settings)])
 
 
 def _typed(key, value):
@@ -43,7 +43,7 @@ def check_rows(grid, changes, description):
     """Refuse a single number as --grid for a scene that varies along y, where the second number would remain from another grid.
     SceneError.
 
-    grid: as typed; changes: result of :func:`given_by`; description: function that gives the changed scene.
+    grid: as typed; changes: result of :func:`changes_of`; description: function that gives the changed scene.
     """
     if grid is None or "grid.ny" in _grid(grid) or description().one_dimensional:
         return

@@ -31,7 +31,7 @@ def scenes():
 
 def oils():
     """List the named oils with viscosity at p = 0, pressure-viscosity coefficient and source."""
-    from tehl_cli.tables import list_table, wrapped
+    from tehl_cli.tables import list_table, print_wrapped
 
     from tehl_taichi.scene.named_oils import NAMED
 
@@ -39,9 +39,9 @@ def oils():
                ("name", "what", "eta 40", "eta 100", "alpha"),
                [(name, oil.says, *oil.shown_numbers) for name, oil in NAMED.items()])
     for name, oil in NAMED.items():
-        wrapped(f"{name}: {oil.source} [{oil.oil.viscosity}]")
-    wrapped("To choose one: --oil NAME. For your own oil give its data sheet (m2/s, kg/m3): --set oil.nu_40=220e-6 "
-            "--set oil.nu_100=19e-6 --set oil.rho_15=890")
+        print_wrapped(f"{name}: {oil.source} [{oil.oil.viscosity}]")
+    print_wrapped("To choose one: --oil NAME. For your own oil give its data sheet (m2/s, kg/m3): --set oil.nu_40=220e-6 "
+                  "--set oil.nu_100=19e-6 --set oil.rho_15=890")
 
 
 def laws():
@@ -165,10 +165,10 @@ def _show_run(saved, as_json):
     from tehl_cli.stdout import print_json
     from tehl_cli.tables import history_table, summary_table, warning_lines
 
-    from tehl_taichi.runs.summary.summary import so_far
+    from tehl_taichi.runs.summary.summary import unfinished_summary
 
     if as_json:
-        return print_json(saved.summary or so_far(saved))
+        return print_json(saved.summary or unfinished_summary(saved))
     store = saved.path
     put(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {_state(saved)}")
     if saved.scene.note:
@@ -265,7 +265,7 @@ def _show_plugins():
     if found:
         list_table("entries of plugins", ("file", "name", "known value", "computed", ""),
                    [(*row, "good" if right else "WRONG") for *row, right in found])
-    for path in plugins.unread():
+    for path in plugins.unread_files():
         put(f"warning: {path} is not read; move it to the subfolder of its kind, as shear")
     return all(right for *_, right in found)
 

@@ -6,7 +6,7 @@ from typing import List, Optional
 import typer
 from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import say
-from tehl_cli.scene_options import check_rows, given_by
+from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 
 MANY = 1000  # more cases than this need --yes
@@ -56,11 +56,11 @@ def sweep(
     from tehl_taichi.runs.sweep import sweeping
 
     options = {"time.steps": steps, "thermal.on": thermal, "fatigue.on": fatigue, "time.steady_only": steady or None}
-    changes = given_by(options, grid, set_ or [])
+    changes = changes_of(options, grid, set_ or [])
     plan, out = _planned(scene, over or [], samples, seed, changes, grid, out)
     out = out or sweeping.default_path(plan)
     if dry_run:
-        sweeping.checked(workers, threads_per_worker, scheduler, keep, connect=False)
+        sweeping.check_settings(workers, threads_per_worker, scheduler, keep, connect=False)
         say_idle(context, "--dry-run prints text", "as_json")
         return _report(plan, out)
     _check_count(plan, yes)

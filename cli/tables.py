@@ -54,7 +54,7 @@ def warning_lines(sentences):
         put(f"warning: {sentence}")
 
 
-def wrapped(sentence):
+def print_wrapped(sentence):
     """Print a sentence within the width of the terminal, with further lines indented."""
     import shutil
     import textwrap

@@ -4,7 +4,7 @@ import contextlib
 
 
 @contextlib.contextmanager
-def timed(live):
+def time_budget(live):
     """The TimeBudget of a command whose progress `live` shows; None without --timing."""
     if live is None:
         yield None

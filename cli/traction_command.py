@@ -7,7 +7,7 @@ import typer
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import DRAWS, say_idle
 from tehl_cli.live_display import say
-from tehl_cli.scene_options import check_rows, given_by
+from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 
 LIST = "values a,b,c or low:high:N or low:high:N:log, with units as in 0:50%:11"
@@ -52,12 +52,12 @@ def traction(
     from tehl_taichi.errors import Interrupted, NotConverged, stopped
     from tehl_taichi.runs import traction as room
     from tehl_taichi.store.load_scene import find
-    from tehl_taichi.view.figures.figure_style import FigureStyle, drawing
+    from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
 
     page = FigureStyle(format, dpi, figure_width, force=True)
-    drawing() if figure else say_idle(context, "--no-figure draws none", *DRAWS)
+    import_matplotlib() if figure else say_idle(context, "--no-figure draws none", *DRAWS)
     options = {"oil.name": oil, "thermal.on": thermal}
-    changes = given_by(options, grid, set_ or [])
+    changes = changes_of(options, grid, set_ or [])
     base = find(scene)
     check_rows(grid, changes, lambda: base)
     with SweepLive(quiet) as live:

@@ -11,7 +11,7 @@ from tehl_taichi.crack.analysis import follow
 from tehl_taichi.crack.crack_options import SIDES, CrackOptions
 from tehl_taichi.crack.symmetry_plane import plane_of
 from tehl_taichi.errors import NotConverged
-from tehl_taichi.runs.single_run import completed
+from tehl_taichi.runs.single_run import run_or_resume
 from tehl_taichi.runs.sweep import pool
 from tehl_taichi.scene import scene
 
@@ -81,7 +81,7 @@ def _stores(name, description, folder, grids, progress):
         progress(f"{name}: {nx} x {ny} cells")
         try:
             path = folder / f"{name.replace(',', '').replace(' ', '-')}-{nx}.zarr"
-            found.append(completed(description.replace(**{"grid.nx": nx, "grid.ny": ny, **BARE}), path).store)
+            found.append(run_or_resume(description.replace(**{"grid.nx": nx, "grid.ny": ny, **BARE}), path).store)
         except NotConverged as error:
             progress(f"{name}, {nx} x {ny} cells: {error}")
             found = []

@@ -12,7 +12,7 @@ from tehl_taichi.fatigue import contact_alone, depth_profile, findley
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface
 from tehl_taichi.march.accuracy import coarse_runs, readings
-from tehl_taichi.runs.single_run import completed
+from tehl_taichi.runs.single_run import run_or_resume
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.store.store_draft import removed
@@ -50,7 +50,7 @@ def read_passage(description, store):
     """
     kept = store.with_suffix(".json")
     if not kept.exists():
-        found = of(completed(description, store).store)
+        found = of(run_or_resume(description, store).store)
         if description.grid.nx * description.grid.ny <= LARGE:
             return found
         content = {**asdict(found), "courses": list(found.courses.items())}
@@ -99,7 +99,7 @@ def unresolved(saved):
     """{(loads, window): why the grid does not know it}, of windows with a pressure peak that it does not resolve."""
     a, (at, p) = Scales.of(saved.scene).a, _largest(saved)
     entries = {window: 1 + np.flatnonzero((at >= low) & (at <= high)) for window, (low, high) in WINDOWS.items()}
-    doubts = {window: readings.unresolved(saved, those, p[those - 1].max(), a) for window, those in entries.items()
+    doubts = {window: readings.pressure_doubt(saved, those, p[those - 1].max(), a) for window, those in entries.items()
               if those.size}
     keys = [(loads, window) for loads in LOADS for window in WINDOWS] + [*DEEP.values()]
     return {key: doubts[key[1]] for key in keys if doubts.get(key[1])}

@@ -49,7 +49,7 @@ def carried(chosen):
 def _carried(description):
     g, line = description.grid, Scales.of(description).line
     most = max(g.nx, FINEST["line" if line else "point"])
-    nx, ny = thin_film.needed(description, most) or (most, g.ny * most // g.nx)
+    nx, ny = thin_film.sufficient_grid(description, most) or (most, g.ny * most // g.nx)
     return description.replace(**{"grid.nx": nx, "grid.ny": g.ny if line else ny})
 
 
@@ -106,7 +106,7 @@ def run_case(name, description, precision=AUTO):
     unsettled = shots[0].unsettled if shots else ""
     return CaseOutcome(name, verdict, reason or unsettled, steps, newton / count, cycles / count, seconds, index,
                        bool(unsettled),
-                   thin_film.carried(description) >= 1)
+                   thin_film.resolved_ratio(description) >= 1)
 
 
 def sound(shot):

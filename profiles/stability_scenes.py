@@ -137,4 +137,4 @@ def edited(base, changes):
     """Scene `base` with dotted changes, and whole tables as a scene file would give them."""
     tables = {key: value for key, value in changes.items() if isinstance(value, (dict, list))}
     plain = {key: value for key, value in changes.items() if key not in tables}
-    return Scene.from_dict(overrides.merged(scene(base).replace(**plain).to_dict(), tables))
+    return Scene.from_dict(overrides.merge(scene(base).replace(**plain).to_dict(), tables))

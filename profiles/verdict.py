@@ -17,7 +17,7 @@ from tehl_taichi.fatigue import assessment, material_length
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.march.accuracy.domain_error import DomainError
-from tehl_taichi.runs.single_run import completed
+from tehl_taichi.runs.single_run import run_or_resume
 from tehl_taichi.runs.sweep import pool
 from tehl_taichi.scene import Scene, scene
 from tehl_taichi.store.json_values import plain
@@ -127,7 +127,7 @@ def rows(name, folder, quick=False, progress=None, variants=tuple(VARIANTS)):
 
 def _keep(file, description, row):
     """Write a row beside the stores that it was searched in."""
-    with files.blamed(file):
+    with files.disk_errors(file):
         content = {"version": __version__, "scene": description.to_dict(), "row": plain(plain_row(row))}
         files.replace(file, json.dumps(content).encode())
 
@@ -151,7 +151,7 @@ def _passages(base, folder, progress, variant=""):
         if progress:
             progress(f"{base.name}{variant}: {one.grid.nx} x {one.grid.ny} cells")
         try:
-            found = completed(one.replace(**BARE), folder / f"{base.name}{variant}-{one.grid.nx}x{one.grid.ny}.zarr").store
+            found = run_or_resume(one.replace(**BARE), folder / f"{base.name}{variant}-{one.grid.nx}x{one.grid.ny}.zarr").store
         except Error:
             if own is None:
                 raise

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tehl_taichi.runs.single_run import completed
+from tehl_taichi.runs.single_run import run_or_resume
 from tehl_taichi.scene import scene
 
 GRID, FACTOR = (128, 32), 4
@@ -82,7 +82,7 @@ def _file(name):
 def _finished(description, path, threads):
     """(summary, s) of a run."""
     began = time.perf_counter()
-    summary = completed(description, path, threads=threads).summary
+    summary = run_or_resume(description, path, threads=threads).summary
     return summary, max(time.perf_counter() - began, summary["wall_s"])
 
 

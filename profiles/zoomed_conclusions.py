@@ -10,7 +10,7 @@ from tehl_taichi.profiles.passage_stresses import DEEP, DEPTHS, LOADS
 
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.fatigue.pressure_alone import searched
-from tehl_taichi.runs.single_run import completed
+from tehl_taichi.runs.single_run import run_or_resume
 
 GRID, QUICK_GRID = (256, 64), (32, 8)  # cells of the runs
 SURFACE, BELOW = ("all", "whole"), DEEP["whole"]
@@ -47,8 +47,8 @@ def rows(name, description, folder, threads=None):
     g, srr = description.grid, description.operation.srr
     grid = f"{g.nx}x{g.ny} zoom {description.zoom.factor}"
     try:
-        summary = completed(description, folder / f"{conclusions.file_name(name)}-zoom{description.zoom.factor}.zarr",
-                            threads=threads).summary
+        summary = run_or_resume(description, folder / f"{conclusions.file_name(name)}-zoom{description.zoom.factor}.zarr",
+                                threads=threads).summary
     except NotConverged as error:
         return [ConclusionRow(name, srr, {}, {}, (np.nan, np.nan), reason=str(error), grid=grid)]
     return [_of_body(name, srr, body, searched(one), grid) for body, one in sorted(summary["fatigue_by_surface"].items())]

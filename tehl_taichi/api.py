@@ -44,7 +44,7 @@ def _use_plugins(*names):
         from tehl_taichi.values import plugins
 
         for name in files:
-            plugins.of_file(name)
+            plugins.use_plugins_of(name)
 
 
 def scene(name: "Name | Scene" = "gear") -> "Scene":

@@ -101,7 +101,7 @@ def _made(path, scene, entries, search, found, said):
 
 def flank(folder):
     """A flank of three positions, the last of which did not converge."""
-    from tehl_taichi.runs.flank.flank_run import about, flank_record
+    from tehl_taichi.runs.flank.flank_run import describe, flank_record
     from tehl_taichi.runs.flank.flank_source import flank_source
     from tehl_taichi.runs.flank.line_contacts import scene_at
     from tehl_taichi.runs.flank.outcomes import Outcome
@@ -114,5 +114,5 @@ def flank(folder):
                   "wall_s": 1.0, "warnings": ["same everywhere"]} for h, Fi in ((1e-7, 1.4), (4e-7, 0.7))]
     outcomes = [Outcome(folder / "1.zarr", summaries[0]), Outcome(folder / "2.zarr", summaries[1]),
                 Outcome(folder / "3.zarr", reason="step 7 failed")]
-    Flank(folder, flank_record(about(found, folder, "pinion"), places, scenes, outcomes)).write()
+    Flank(folder, flank_record(describe(found, folder, "pinion"), places, scenes, outcomes)).write()
     return folder

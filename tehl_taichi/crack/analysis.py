@@ -6,8 +6,8 @@ import numpy as np
 
 from tehl_taichi.crack import body
 from tehl_taichi.crack.fillings import FILLINGS
-from tehl_taichi.crack.growth import WHY, CrackPath, grow, loaded
-from tehl_taichi.crack.symmetry_plane import SymmetryPlane, passing, plane_of
+from tehl_taichi.crack.growth import WHY, CrackPath, grow, load_crack
+from tehl_taichi.crack.symmetry_plane import SymmetryPlane, first_feature_path, plane_of
 from tehl_taichi.crack.trajectory import CrackStart, start, trajectory
 from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.assessment import PIT_ANGLES, Snapshots
@@ -69,8 +69,8 @@ def run(scene, reader, options):
     SceneError.
     """
     reader = Snapshots(reader) if isinstance(reader, list) else reader
-    passing(scene, reader)
-    surface = body.chosen(scene, reader, options.surface)
+    first_feature_path(scene, reader)
+    surface = body.cracked_surface(scene, reader, options.surface)
 
     def check(places, deepest):
         _check_places(places, deepest, options)
@@ -130,7 +130,7 @@ def _summary(plane, side, options, E_star):
     origin, path = side.start, side.path
     out = {"start_x_m": origin.x, "start_angle_deg": options.angle, "sigma1_surface_Pa": origin.sigma1,
            "moment_x_m": float(plane.centres[origin.moment]), "trajectory": _shape(side.trajectory),
-           "tension_depth_m": _pulled(side.trajectory, side.tension), "path": _shape(path.points),
+           "tension_depth_m": _tension_depth(side.trajectory, side.tension), "path": _shape(path.points),
            "K": path.steps, "K_I_max": max((step["K_I_max"] for step in path.steps), default=0.0),
            "stopped": path.why, "why": WHY[path.why]}
     if path.last:
@@ -159,7 +159,7 @@ def _chord(points, depth):
     return float(np.degrees(np.arctan2(depth, abs(across))))
 
 
-def _pulled(points, tension):
+def _tension_depth(points, tension):
     """Depth (m) to which the trajectory is under tension at its moment."""
     pressed = np.flatnonzero(tension <= 0)
     return float(points[pressed[0] if pressed.size else -1].imag)
@@ -167,7 +167,7 @@ def _pulled(points, tension):
 
 def _doubts(plane, path, options, E_star):
     """Error of K_I, from twice as many elements, and warnings."""
-    fine = loaded(plane, path.points, options, E_star, 2 * options.elements)
+    fine = load_crack(plane, path.points, options, E_star, 2 * options.elements)
     K, finer = path.last.K, fine.K
     largest = max(np.abs(finer).max(), 1e-30)
     error = {"K_I_max": float(abs(K[0].max() - finer[0].max())), "K_II_range": float(abs(np.ptp(K[1]) - np.ptp(finer[1])))}

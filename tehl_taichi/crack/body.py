@@ -5,17 +5,17 @@ from tehl_taichi.fatigue import assessment
 from tehl_taichi.fatigue.judged_surfaces import by_surface, resting
 
 
-def chosen(scene, reader, name):
+def cracked_surface(scene, reader, name):
     """Return the :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` with this name, or the worse surface. Raises
     SceneError.
     """
-    name = _worse(scene, reader) if name == WORSE else name
+    name = _worse_surface(scene, reader) if name == WORSE else name
     if name in (s.name for s, rests in zip(scene.surfaces, scene.at_rest) if rests):
         raise resting(name)
     return next(s for s in scene.surfaces if s.name == name)
 
 
-def _worse(scene, reader):
+def _worse_surface(scene, reader):
     """Name of the surface that decides the verdict of a finished run; without a verdict, the one with the largest index."""
     if found := by_surface(getattr(reader, "summary", {})):
         return max(found, key=lambda one: assessment.largest(found[one]))

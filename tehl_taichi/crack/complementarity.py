@@ -14,7 +14,7 @@ ROUND = 1e-11  # of the largest displacement: less is rounding
 YIELD = 1e-12  # of the largest displacement by a unit force: what each unknown gets besides where several mean the same
 
 
-def bounded(M, gap, low, high, at):
+def solve_bounded(M, gap, low, high, at):
     """Solve for forces r with low <= r <= high: w = gap + M r is >= 0 at LOW, 0 where FREE, <= 0 at HIGH.
 
     at: first guess of the states. Returns (r, states: LOW, FREE or HIGH).
@@ -23,12 +23,12 @@ def bounded(M, gap, low, high, at):
     seen: dict[bytes, Any] = {}
     while True:
         r = _forces(M, gap, low, high, at)
-        new = _next(r, gap + M @ r, low, high, at, small)
+        new = _next_states(r, gap + M @ r, low, high, at, small)
         wrong = np.flatnonzero(new != at)
         if wrong.size == 0:
             return r, at
         if at.tobytes() in seen:
-            return _least(seen, at.tobytes())
+            return _smallest_of_cycle(seen, at.tobytes())
         if wrong.size < fewest:
             fewest, left = wrong.size, TRIES
         elif left > 0:
@@ -40,7 +40,7 @@ def bounded(M, gap, low, high, at):
         at[wrong] = new[wrong]
 
 
-def _least(seen, again):
+def _smallest_of_cycle(seen, again):
     """State with the smallest forces of a cycle that starts at `again`; rounding alone makes the states of the cycle differ."""
     states = list(seen)
     return min((seen[state] for state in states[states.index(again) :]), key=lambda found: np.abs(found[0]).max())
@@ -49,11 +49,11 @@ def _least(seen, again):
 def _forces(M, gap, low, high, at):
     """Forces r: at their bounds, or with zero displacement where FREE."""
     r, free = np.where(at == LOW, low, np.where(at == HIGH, high, 0.0)), at == FREE
-    r[free] = solved(M[np.ix_(free, free)], -(gap + M @ r)[free])
+    r[free] = solve_compliant(M[np.ix_(free, free)], -(gap + M @ r)[free])
     return r
 
 
-def solved(M, right_side):
+def solve_compliant(M, right_side):
     """Forces that cause the displacements `right_side`.
 
     Rows may be dependent (touching faces with oil between them). A small compliance of each shares the force between them, or
@@ -65,7 +65,7 @@ def solved(M, right_side):
         return np.linalg.solve(M + YIELD * np.abs(M).max() * np.eye(len(M)), right_side)
 
 
-def _next(r, w, low, high, at, small):
+def _next_states(r, w, low, high, at, small):
     """States of the next iteration."""
     new = at.copy()
     free = at == FREE

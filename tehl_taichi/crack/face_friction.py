@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.crack.closure import shut
-from tehl_taichi.crack.complementarity import FREE, HIGH, LOW, bounded, solved
+from tehl_taichi.crack.closure import close_tips
+from tehl_taichi.crack.complementarity import FREE, HIGH, LOW, solve_bounded, solve_compliant
 
 TRIES, ROUNDS = 6, 60  # exchanges of states, rounds of bounds in a moment; then it counts as not settled
 SAME = 1e-8            # of the largest contact force: two rounds agree
@@ -62,7 +62,7 @@ def with_friction(faces, forces, mu):
     first = _passage(S, free, mu, np.full(contacts, OPEN), np.zeros(faces.rough))
     history = _passage(S, free, mu, first.state[:, -1], first.slip[:, -1], first)
     held = history.forces[:contacts]
-    return shut(faces, faces.compliance @ (forces + G.T @ history.forces), held), held, int((~history.settled).sum())
+    return close_tips(faces, faces.compliance @ (forces + G.T @ history.forces), held), held, int((~history.settled).sum())
 
 
 def _passage(S, free, mu, state, slip, before=None):
@@ -73,7 +73,7 @@ def _passage(S, free, mu, state, slip, before=None):
     moments = free.shape[1]
     history, now = FrictionHistory.none(state.size, slip.size, moments), 0
     while now < moments:
-        *done, then = some(S, free[:, now : now + AHEAD], mu, state, slip)
+        *done, then = solve_some(S, free[:, now : now + AHEAD], mu, state, slip)
         history.put(slice(now, now + done[0].shape[1]), *done)
         now, state = now + done[0].shape[1], then
         slip = history.slip[:, now - 1]
@@ -83,7 +83,7 @@ def _passage(S, free, mu, state, slip, before=None):
     return history
 
 
-def some(S, free, mu, state, slip):
+def solve_some(S, free, mu, state, slip):
     """Solve the first n moments of `free` (at least one) that share one state.
 
     Returns (forces (contacts + rough, n), the state, slip (rough, n), settled, guess of the next state).
@@ -92,22 +92,22 @@ def some(S, free, mu, state, slip):
     for _ in range(TRIES):
         r = _forces(S, free, mu, state, slip)
         moved = free + S @ r
-        new = _next(state, r, moved, mu, slip)
-        n = _fitting(state, new)
+        new = _next_states(state, r, moved, mu, slip)
+        n = _count_in_state(state, new)
         if n:
             return r[:, :n], state, moved[contacts:, :n], True, new[:, min(n, new.shape[1] - 1)]
         state = new[:, 0]
-    state, r, settled = by_bounds(S, free[:, 0], mu, slip, np.maximum(r[:contacts, 0], 0.0))
+    state, r, settled = solve_by_bounds(S, free[:, 0], mu, slip, np.maximum(r[:contacts, 0], 0.0))
     return r[:, None], state, (free[:, :1] + S @ r[:, None])[contacts:], settled, state
 
 
-def _fitting(state, new):
+def _count_in_state(state, new):
     """Number of consecutive moments from the first one on that are in this state."""
     wrong = np.flatnonzero((new != state[:, None]).any(axis=0))
     return wrong[0] if wrong.size else new.shape[1]
 
 
-def by_bounds(S, free, mu, slip, q):
+def solve_by_bounds(S, free, mu, slip, q):
     """Solve one moment with bounded friction, starting with contact forces q (contacts,); slip: of the previous moment.
 
     Returns (state, forces, whether it settled).
@@ -116,7 +116,7 @@ def by_bounds(S, free, mu, slip, q):
     at = np.where(np.concatenate([q, q[:rough]]) > 0, FREE, LOW)
     for _ in range(ROUNDS):
         bound = mu * q[:rough]
-        r, at = bounded(S, gap, np.concatenate([0 * q, -bound]), np.concatenate([0 * q + np.inf, bound]), at)
+        r, at = solve_bounded(S, gap, np.concatenate([0 * q, -bound]), np.concatenate([0 * q + np.inf, bound]), at)
         change, q = np.abs(r[: q.size] - q).max(), r[: q.size]
         if change <= SAME * q.max():
             break
@@ -136,14 +136,14 @@ def _forces(S, free, mu, state, slip):
     columns[:, np.searchsorted(touching, sliding)] += S[:, contacts + sliding] * rub[sliding]
     right_side = -free[rows]
     right_side[touching.size :] += slip[stuck, None]
-    found = solved(columns[rows], right_side)
+    found = solve_compliant(columns[rows], right_side)
     r[touching] = found[: touching.size]
     r[contacts:] = rub[:, None] * r[:rough]
     r[contacts + stuck] = found[touching.size :]
     return r
 
 
-def _next(state, r, moved, mu, slip):
+def _next_states(state, r, moved, mu, slip):
     """States (contacts, moments) of the next iteration, from these forces, openings and slips."""
     contacts, rough, rubs = state.size, slip.size, state[: slip.size, None]
     q, f, opening = r[:contacts], r[contacts:], moved[:contacts]

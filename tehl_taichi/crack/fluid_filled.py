@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from tehl_taichi.crack.closure import opened, shut
-from tehl_taichi.crack.face_friction import OPEN, UP, some, with_friction
+from tehl_taichi.crack.closure import close_tips, frictionless
+from tehl_taichi.crack.face_friction import OPEN, UP, solve_some, with_friction
 from tehl_taichi.crack.filling import Fluid
 
 
@@ -52,7 +52,7 @@ class FluidFilledCrack:
         if self.friction > 0:
             values, held, missed = with_friction(self.faces, forces, self.friction)
         else:
-            (values, held), missed = opened(self.faces, forces), 0
+            (values, held), missed = frictionless(self.faces, forces), 0
         return FluidState(values, held, missed, pressure)
 
     def marched(self, count, first, step):
@@ -126,7 +126,7 @@ class CrackMarch:
         return self._found(n, *self._solved(S, free, self.state))
 
     def _solved(self, S, free, state):
-        r, state, _, settled, _ = some(S, free[:, None], self.wet.friction, state, self.slip)
+        r, state, _, settled, _ = solve_some(S, free[:, None], self.wet.friction, state, self.slip)
         return r[:, 0], state, settled
 
     def _found(self, n, forces, state, settled):
@@ -143,7 +143,7 @@ class CrackMarch:
     def inside(self, founds, contents):
         """Join the solutions of all moments to one :class:`FluidState`."""
         held = np.stack([found.forces[: self.contacts] for found in founds], axis=1)
-        values = shut(self.wet.faces, np.stack([found.values for found in founds], axis=1), held)
+        values = close_tips(self.wet.faces, np.stack([found.values for found in founds], axis=1), held)
         pressure, missed = np.array([found.pressure[-1] for found in founds]), sum(not found.settled for found in founds)
         return FluidState(values, held, missed, pressure, np.array([content.sum() for content in contents]))
 

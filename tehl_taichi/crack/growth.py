@@ -53,7 +53,7 @@ class CrackPath:
         return f"<Path of {self.points.size} points, stopped by {self.why}>"
 
 
-def loaded(plane, points, options, E_star, elements=None):
+def load_crack(plane, points, options, E_star, elements=None):
     """Load a crack along `points` (all within the plane). Returns a :class:`LoadedCrack`."""
     elements = elements or options.elements
     faces = CrackFaces(points, E_star, elements)
@@ -70,21 +70,21 @@ def grow(plane, origin, options, E_star):
     """Grow a crack from a :class:`tehl_taichi.crack.trajectory.CrackStart`. Returns its :class:`CrackPath`."""
     first = options.first * np.exp(1j * np.radians(options.angle))
     path = CrackPath(np.array([origin.x, origin.x + first]))
-    while not _stopped(plane, path, options, E_star):
+    while not _load_newest(plane, path, options, E_star):
         z, tip = path.points, path.points[-1]
         da = min(options.step, options.length - path.steps[-1]["length_m"])
-        path.points = np.append(z, tip + da * _ahead(plane, path.last, tip, tip - z[-2], options))
+        path.points = np.append(z, tip + da * _growth_direction(plane, path.last, tip, tip - z[-2], options))
     return path
 
 
-def _stopped(plane, path, options, E_star):
+def _load_newest(plane, path, options, E_star):
     """Load the crack at its newest length. Returns True, and stores the reason, if it stops growing."""
     tip, before = path.points[-1], path.points[-2]
     rising = tip.imag < before.imag and tip.imag <= options.distance  # what is left above it is a flake that breaks off
     if rising or not plane.holds(tip):
         path.why, path.points = "surface" if rising else "window", path.points[:-1]
         return True
-    path.last = loaded(plane, path.points, options, E_star)
+    path.last = load_crack(plane, path.points, options, E_star)
     path.first = path.first or path.last
     path.steps.append(_step_numbers(plane, path.last))
     step = path.steps[-1]
@@ -102,20 +102,20 @@ def _step_numbers(plane, crack):
             "oil_at_tip_Pa": float(crack.pressure.max()), "unsettled": int(crack.missed)}
 
 
-def _ahead(plane, crack, tip, last, options):
+def _growth_direction(plane, crack, tip, last, options):
     """Unit direction of the largest tension at `options.distance` from the tip, over the passage."""
     turns = np.linspace(-WIDEST, WIDEST, FAN)
     directions = last / abs(last) * np.exp(1j * turns)
     at = tip + options.distance * directions
     inside = plane.holds(at)
     tension = np.full((FAN, crack.K.shape[1]), -np.inf)
-    tension[inside] = _hoop(plane, crack, at[inside], directions[inside])
+    tension[inside] = _tension_across(plane, crack, at[inside], directions[inside])
     n, moment = np.unravel_index(int(np.argmax(tension)), tension.shape)
-    turn = turns[n] + _top(tension[:, moment], n) * (turns[1] - turns[0])
+    turn = turns[n] + _parabola_top(tension[:, moment], n) * (turns[1] - turns[0])
     return last / abs(last) * np.exp(1j * turn)
 
 
-def _hoop(plane, crack, at, directions):
+def _tension_across(plane, crack, at, directions):
     """Tension across the directions in the body with the crack, plus the oil pressure that would follow: (points, moments)."""
     own = np.einsum("cpk,km->pmc", crack.faces.around(at), crack.values)
     xx, zz, xz = np.moveaxis(plane.at(at) + own, -1, 0)
@@ -123,7 +123,7 @@ def _hoop(plane, crack, at, directions):
     return xx * n.real**2 + zz * n.imag**2 + 2 * xz * n.real * n.imag + crack.pressure
 
 
-def _top(values, n):
+def _parabola_top(values, n):
     """Position (n - 1/2 to n + 1/2) of the maximum of the parabola through the largest value and its two neighbours."""
     if not 0 < n < values.size - 1 or not np.isfinite(values[n - 1 : n + 2]).all():
         return 0.0

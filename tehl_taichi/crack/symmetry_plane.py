@@ -92,7 +92,7 @@ def plane_of(scene, reader, residual=None, check=None, surface=None):
     scene's fatigue.residual_xx and tables. check(x', deepest): called with the extent (m) before any stress is computed. Raises
     SceneError if the run has no passage, if y = 0 is no plane of symmetry, or if a stress is no number.
     """
-    feature, centres = passing(scene, reader)
+    feature, centres = first_feature_path(scene, reader)
     scene = scene if residual is None else scene.replace(**WITHOUT_RESIDUAL)
     passage = StressHistories(scene, reader, centres, WINDOW, surface)
     skin = SKIN * min(feature.reach, passage.a)
@@ -109,7 +109,7 @@ def plane_of(scene, reader, residual=None, check=None, surface=None):
                          Fluid.of(scene), passage.surface).having(residual)
 
 
-def passing(scene, reader):
+def first_feature_path(scene, reader):
     """First feature, and the position of its centre (m) at every entry. Raises SceneError, see :func:`plane_of`."""
     centres = np.array([reader.feature_x(n) for n in range(len(reader))])
     if len(reader) < 2 or not np.isfinite(centres).all():

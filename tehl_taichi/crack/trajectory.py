@@ -49,18 +49,18 @@ def trajectory(plane, origin, length):
     points: list[complex] = []
     tension: list[float] = []
     while len(points) * da <= length and plane.holds(z):
-        value, direction = _across(plane, z, origin.moment, way)
+        value, direction = _principal_direction(plane, z, origin.moment, way)
         points.append(z)
         tension.append(value)
         middle = z + da / 2 * direction
         if not plane.holds(middle):
             break
-        way = _across(plane, middle, origin.moment, direction)[1]
+        way = _principal_direction(plane, middle, origin.moment, direction)[1]
         z = z + da * way
     return np.array(points), np.array(tension)
 
 
-def _across(plane, z, moment, way):
+def _principal_direction(plane, z, moment, way):
     """Largest principal stress at z, and the unit direction normal to it that continues along `way`."""
     stress = plane.at(np.array([z]), slice(moment, moment + 1))[0, 0]
     value, angle = principal(stress)

@@ -16,7 +16,7 @@ from typing import Any
 
 from tehl_taichi.disk.files import reason
 from tehl_taichi.disk.links import ROOT, is_folder
-from tehl_taichi.disk.locks import LOCK, Busy, Lock, abandoned, holder, lock_content
+from tehl_taichi.disk.locks import LOCK, Busy, Lock, holder, is_abandoned, lock_content
 from tehl_taichi.errors import StoreError
 
 PART, OLD, GONE = "part", "old", "gone"
@@ -144,7 +144,7 @@ def clean(folder):
     for what in (PART, GONE, OLD):
         for leftover in folder.glob(f".*.{what}"):
             new = folder / leftover.name[1 : -len(what) - 1]
-            if _ours(leftover) and abandoned(leftover) and (what != OLD or _replaced(leftover, new)):
+            if _ours(leftover) and is_abandoned(leftover) and (what != OLD or _replaced(leftover, new)):
                 with contextlib.suppress(Busy, OSError):  # another process takes it over, or cleans too
                     remove(leftover, Lock(leftover))
 
@@ -173,7 +173,7 @@ def _check_ours(folder):
             raise Busy(f"{folder} is in the way and is {what}: move it away, or choose another --out")
 
 
-def unmade(path):
+def unfinished_error(path):
     """Error about a store that has not appeared at `path` yet (Busy while it is being written), or None."""
     folder = staging_path(Path(path), PART)
     if not is_folder(folder):

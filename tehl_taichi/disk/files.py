@@ -19,7 +19,7 @@ UNFOLLOWING = getattr(os, "O_NOFOLLOW", 0) | UNWAITING
 
 def replace(path, content):
     """Replace the content of `path` atomically. Raises OSError, and then leaves `path` unchanged."""
-    with aside(path) as temporary:
+    with replacement(path) as temporary:
         write(temporary, content)
 
 
@@ -37,7 +37,7 @@ def write(path, content):
 
 
 @contextlib.contextmanager
-def aside(path):
+def replacement(path):
     """Context manager: a temporary name, renamed to `path` at the end of the block. Raises OSError; no incomplete file is
     left.
     """
@@ -53,17 +53,17 @@ def aside(path):
 
 def append(path, content):
     """Append bytes to a file, which is created if missing. Raises OSError, also for a link."""
-    with os.fdopen(opened(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT), "ab") as file:
+    with os.fdopen(open_plain(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT), "ab") as file:
         file.write(content)
 
 
-def cut(path, size):
+def truncate(path, size):
     """Truncate a file to `size` bytes. Raises OSError, also for a link."""
-    with os.fdopen(opened(path, os.O_RDWR), "r+b") as file:
+    with os.fdopen(open_plain(path, os.O_RDWR), "r+b") as file:
         file.truncate(size)
 
 
-def opened(path, flags):
+def open_plain(path, flags):
     """Open a plain file that has no other name; returns the descriptor. Raises OSError, also for a link and for a special
     file.
     """
@@ -104,7 +104,7 @@ def json_of(path):
         raise ValueError("it is nested too deeply") from None
 
 
-def tidy(folder):
+def remove_temporaries(folder):
     """Remove temporary files of killed writers in a folder that only this process writes."""
     for entry in os.scandir(folder):
         if TEMPORARY.fullmatch(entry.name) and entry.is_file(follow_symlinks=False):
@@ -117,7 +117,7 @@ def reason(error):
 
 
 @contextlib.contextmanager
-def blamed(path, doing="cannot write"):
+def disk_errors(path, doing="cannot write"):
     """Context manager: OSErrors of the disk become a StoreError about `path`."""
     try:
         yield

@@ -14,14 +14,14 @@ def refuse(folder):
     study or flank leads to it.
     """
     folder = Path(folder)
-    for path in (*_ways(folder), folder, *_below(folder)):
-        if what := strange(os.lstat(path)):
+    for path in (*_links_through(folder), folder, *_below(folder)):
+        if what := special_kind(os.lstat(path)):
             where = f"{folder} holds {what}, {path}" if path.is_relative_to(folder) and path != folder else f"{path} is {what}"
             raise StoreError(f"{where}, and tehl does not write through links. `cp -rL {folder} NEW` makes a copy without "
                              "links that can be written")
 
 
-def strange(status):
+def special_kind(status):
     """Kind of an entry (of os.lstat) that is never written to, as text; "" for folders and files."""
     if stat.S_ISDIR(status.st_mode):
         return ""
@@ -43,7 +43,7 @@ def refuse_itself(path):
         raise StoreError(f"{path} is a link, and tehl does not write through links; choose another --out")
 
 
-def around(path):
+def result_folders(path):
     """Result folders (studies, flanks ...) that contain a path, the innermost first, by its name and by the targets of its
     links.
     """
@@ -52,10 +52,10 @@ def around(path):
             if any(os.path.lexists(folder / mark) for mark in MARKS)]
 
 
-def _ways(folder):
+def _links_through(folder):
     """Links inside a study or a flank through which the name of `folder` leads."""
     absolute = folder.absolute()
-    found = [top for top in around(folder) if absolute.is_relative_to(top)]
+    found = [top for top in result_folders(folder) if absolute.is_relative_to(top)]
     return [way for way in absolute.parents if found and way.is_relative_to(found[-1]) and way != found[-1]
             and os.path.islink(way)]
 

@@ -2,7 +2,7 @@
 
 
 from tehl_taichi.disk import links
-from tehl_taichi.disk.files import blamed, tidy
+from tehl_taichi.disk.files import disk_errors, remove_temporaries
 from tehl_taichi.disk.locks import Lock
 
 
@@ -29,11 +29,11 @@ def locked_folder(path, opened):
     Busy.
     """
     links.refuse(path)
-    with blamed(path, "cannot write to"):
+    with disk_errors(path, "cannot write to"):
         lock = Lock(path)
     try:
-        with blamed(path, "cannot write to"):
-            tidy(path)
+        with disk_errors(path, "cannot write to"):
+            remove_temporaries(path)
         return opened(lock)
     except BaseException:
         lock.release()

@@ -29,7 +29,7 @@ class Lock:
 
     def __init__(self, folder, name=None):
         self.path, self.name = Path(folder) / LOCK, name or folder
-        self.file = _taken(self.path, self.name)
+        self.file = _open_and_lock(self.path, self.name)
         try:
             before = _read(self.file)
             if not before and os.fstat(self.file.fileno()).st_size:
@@ -52,7 +52,7 @@ class Lock:
     def release(self):
         """Remove the lock file, then release the kernel's lock."""
         if not self.file.closed:
-            if _same(self.file, self.path):
+            if _has_this_name(self.file, self.path):
                 self.path.unlink(missing_ok=True)
             self.file.close()
 
@@ -75,7 +75,7 @@ def lock_content(folder):
         return {}
 
 
-def abandoned(folder):
+def is_abandoned(folder):
     """Whether `folder` has a lock of this program that no process of this host holds."""
     try:
         with _to_read(folder) as file:
@@ -86,15 +86,15 @@ def abandoned(folder):
 
 
 def _to_read(folder):
-    return os.fdopen(files.opened(Path(folder) / LOCK, os.O_RDONLY))
+    return os.fdopen(files.open_plain(Path(folder) / LOCK, os.O_RDONLY))
 
 
-def _taken(path, name):
+def _open_and_lock(path, name):
     """Open and lock the lock file. Raises Busy."""
     until = time.monotonic() + PATIENCE
     while True:
-        file = os.fdopen(files.opened(path, os.O_RDWR | os.O_CREAT), "r+")
-        if _lock(file) and _same(file, path):
+        file = os.fdopen(files.open_plain(path, os.O_RDWR | os.O_CREAT), "r+")
+        if _lock(file) and _has_this_name(file, path):
             return file
         content = _read(file)
         file.close()
@@ -131,7 +131,7 @@ def _alive(pid):
     return True
 
 
-def _same(file, path):
+def _has_this_name(file, path):
     """Whether the open file still has this name: its last owner may have removed it meanwhile."""
     try:
         return os.path.samestat(os.fstat(file.fileno()), os.lstat(path))

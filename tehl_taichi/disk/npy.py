@@ -16,7 +16,7 @@ def load(path):
     memory; OSError.
     """
     with open(path, "rb") as file:
-        memory_limit.check(3 * declared(file, os.fstat(file.fileno()).st_size), f"{path}, with its copies,")
+        memory_limit.check(3 * declared_bytes(file, os.fstat(file.fileno()).st_size), f"{path}, with its copies,")
         file.seek(0)
         return np.load(file, allow_pickle=False)
 
@@ -29,12 +29,12 @@ def load_all(path):
             raise ValueError("it declares more data than it holds")
         for member in members:
             with archive.open(member) as file:
-                declared(file, member.file_size)
+                declared_bytes(file, member.file_size)
     with np.load(path, allow_pickle=False) as saved:
         return {key: saved[key] for key in saved.files}
 
 
-def declared(file, size):
+def declared_bytes(file, size):
     """Number of bytes that the header of an open .npy file declares. Raises ValueError if the file, of `size` bytes, is too
     short for them.
     """

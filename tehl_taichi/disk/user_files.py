@@ -11,7 +11,7 @@ import re
 
 from tehl_taichi.disk import links
 from tehl_taichi.disk.drafts import Draft, exists
-from tehl_taichi.disk.files import blamed
+from tehl_taichi.disk.files import disk_errors
 from tehl_taichi.disk.locks import Lock
 from tehl_taichi.errors import StoreError
 
@@ -52,7 +52,7 @@ def check(path, force=False, kind="", parts="", of=None):
     check_outside(path, of)
     if not os.path.lexists(path):
         return
-    if what := links.strange(os.lstat(path)):
+    if what := links.special_kind(os.lstat(path)):
         raise StoreError(f"{path} is {what}, and tehl does not write through links; remove it or choose another --out")
     if links.is_folder(path) != bool(parts):
         what = "not a folder" if parts else "a folder"
@@ -64,14 +64,14 @@ def check(path, force=False, kind="", parts="", of=None):
 
 def check_outside(path, of=None):
     """Raise StoreError if `path` lies inside a store, study, flank, bearing or cam other than `of`."""
-    for folder in links.around(path):
+    for folder in links.result_folders(path):
         if not (of and os.path.samefile(folder, of)):
             raise StoreError(f"{path} lies in {folder}, which holds results of tehl; choose another --out")
 
 
 def _check_parts(path, parts):
     for part in sorted(path.iterdir()):
-        if not re.fullmatch(parts, part.name) or links.strange(os.lstat(part)):
+        if not re.fullmatch(parts, part.name) or links.special_kind(os.lstat(part)):
             raise StoreError(f"{path} holds {part.name}, which is not part of an export; move it away, or choose another --out")
         _check_ours(part)
 
@@ -100,7 +100,7 @@ def made(path, force=False, **what):
     """Context manager: a temporary path whose content appears at `path` at the end of the block; arguments: see :func:`check`.
     Raises StoreError, also for disk errors.
     """
-    with blamed(path), UserFile(path, force, **what) as output:
+    with disk_errors(path), UserFile(path, force, **what) as output:
         yield output.draft
         output.publish()
 

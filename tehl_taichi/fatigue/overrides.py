@@ -2,7 +2,7 @@
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.scene import SceneError, builtin, keys
-from tehl_taichi.scene.aliases import named
+from tehl_taichi.scene.aliases import resolve_named
 from tehl_taichi.scene.sections import Fatigue
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.quantity import kinds
@@ -14,7 +14,7 @@ OF_POINTS = ("bending_limit", "torsion_limit", "criterion", "endurance", "kappa"
 def agreed(scene, reader):
     """The scene (None: that which the reader knows) of a run or of snapshots. Raises SceneError where it is another one than
     theirs in more than fatigue and what is stored of it."""
-    own, scene = getattr(reader, "scene", None), None if scene is None else builtin.given(scene)
+    own, scene = getattr(reader, "scene", None), None if scene is None else builtin.scene_or_builtin(scene)
     if scene is None or own is None:
         _check_nodes(scene, reader)
         return scene or own
@@ -49,7 +49,7 @@ def of_points(constants, scene=None):
     """:class:`tehl_taichi.scene.sections.Fatigue` of stresses without a passage: that of the scene, if there is one, with these
     constants. Raises SceneError."""
     values = {key.partition(".")[2]: value for key, value in _given(constants).items()}
-    scene = None if scene is None else builtin.given(scene)
+    scene = None if scene is None else builtin.scene_or_builtin(scene)
     own = scene.fatigue if scene is not None else Fatigue()
     free = *OF_POINTS, "on", "source", "limit_of"
     strange = [key for key in kinds(Fatigue) if key not in free and getattr(own, key) != getattr(Fatigue, key)]
@@ -75,4 +75,4 @@ def reader_of(of, function):
 
 def _given(constants):
     """{full key: value} of those that are given. Raises SceneError where two of them contradict each other."""
-    return named({f"fatigue.{key}": value for key, value in constants.items() if value is not None})
+    return resolve_named({f"fatigue.{key}": value for key, value in constants.items() if value is not None})

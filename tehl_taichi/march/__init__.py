@@ -20,9 +20,9 @@ def march(scene: "Scene | str", state: dict | None = None, precision: str | None
     """March through a scene: see :func:`tehl_taichi.march`."""
     from tehl_taichi.errors import SceneError
     from tehl_taichi.march.passage import march as run
-    from tehl_taichi.scene.builtin import given
+    from tehl_taichi.scene.builtin import scene_or_builtin
 
-    scene = given(scene)
+    scene = scene_or_builtin(scene)
     if state is not None and (found := tuple(state["P"].shape)) != (nodes := (scene.rows + 1, scene.grid.nx + 1)):
         raise SceneError(f"the state has {found[1]} x {found[0]} nodes, the scene {nodes[1]} x {nodes[0]}; it belongs to "
                          "another scene")

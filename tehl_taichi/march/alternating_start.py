@@ -27,7 +27,7 @@ def time_step(scene, scales, dx):
     return dx * scales.a / max(o.u_a, o.u_b)
 
 
-def settle(levels, heat, solve, T=None):
+def find_steady(levels, heat, solve, T=None):
     """Find steady pressure and temperature alternately: a block of time steps at constant pressure, then the pressure by
     solve() -> Report.
 
@@ -47,7 +47,7 @@ def settle(levels, heat, solve, T=None):
     means, blocks = [heat.T], 0
     for _ in range(BLOCKS):
         means = [_march(heat, steps, dt), *means[: 2 * LONGEST_RUN - 1]]
-        change = unsettled(means, levels.get(fields.P) > LIGHT)
+        change = remaining_change(means, levels.get(fields.P) > LIGHT)
         report, blocks = solve(), blocks + 1
         steps, dt = _whole_cells(levels.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * cell
         if not report.converged or change < SETTLED and heat.sound:
@@ -58,7 +58,7 @@ def settle(levels, heat, solve, T=None):
     return report, blocks > USUAL
 
 
-def unsettled(means, loaded):
+def remaining_change(means, loaded):
     """Smallest difference (K) between the last series of blocks and the one before, over series of 1, 2, 3 ... blocks.
 
     (A flutter of three blocks, 0.5 K at the outlet of cold oil, would differ by 0.09 K for ever over series of 2, 4 and 8.)

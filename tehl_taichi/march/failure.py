@@ -20,7 +20,7 @@ def not_converged(solver, heat, report, where, passing=False):
     return NotConverged(f"{where} did not converge: {_reason(solver, heat, report, passing)}")
 
 
-def crossed(shot, a, border):
+def crossed_surfaces(shot, a, border):
     """NotConverged for a snapshot with a negative film at nodes of the border (True in an array like its fields); a: m."""
     film = np.where(border, shot.fields["film"], np.inf)
     i, j = np.unravel_index(film.argmin(), film.shape)
@@ -90,5 +90,5 @@ def _too_high(scene):
 
 def _finer(scene):
     """Advice: the next finer grid, or the grid that the film formula needs."""
-    return (thin_film.remedy(scene) if thin_film.carried(scene) < 1
+    return (thin_film.remedy(scene) if thin_film.resolved_ratio(scene) < 1
             else f"use a finer one, {refinement.finer_grid_option(scene)}")

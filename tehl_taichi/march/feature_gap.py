@@ -9,7 +9,7 @@ def smooth_with(levels, features):
     if features:
         gap = gap.copy()
         for feature in features:
-            take_off(gap, levels, feature, 0.0)
+            subtract(gap, levels, feature, 0.0)
     return gap
 
 
@@ -18,7 +18,7 @@ def with_features(gap, levels, surfaces, X):
     gap = gap.copy()
     for surface in surfaces:
         for feature in surface.features:
-            take_off(gap, levels, feature, surface.pace * X)
+            subtract(gap, levels, feature, surface.pace * X)
     return gap
 
 
@@ -31,7 +31,7 @@ def sink(gap, levels, surfaces, changes, X):
         gap += change.at((levels.X - paces[change.surface] * X) * s.a, levels.Y * s.a) / s.h
 
 
-def take_off(gap, levels, feature, at):
+def subtract(gap, levels, feature, at):
     """Subtract the heights of a feature from the gap; at: displacement of its surface, a."""
     s = levels.scales
     x, y = (levels.X - at) * s.a - feature.x, levels.Y[:, None] * s.a - feature.y

@@ -4,7 +4,7 @@ temperatures.
 
 import itertools
 
-from tehl_taichi.march.isothermal_start import again, put
+from tehl_taichi.march.isothermal_start import put, solve_again
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.inlet import Inlet
 
@@ -26,19 +26,19 @@ def between_blocks(solver, border):
     def solve():
         if border is not None and FIRST <= next(blocks) < LAST:
             border.move(BETWEEN)
-        return again(solver)
+        return solve_again(solver)
 
     return solve
 
 
-def agreed(solver, border, report):
+def iterate_border(solver, border, report):
     """Iterate film and border to agreement at constant temperatures. Returns the SolveReport of the last converged solve, whose
     state is in the table.
     """
     if border is None or not report.converged or border.agrees():
         return report
     kept, solver.border = (solver.levels.get(fields.P), solver.H0), border
-    moved, solver.border = again(solver), None
+    moved, solver.border = solve_again(solver), None
     if moved.converged:
         return moved.after([report])
     put(solver, *kept)

@@ -56,7 +56,7 @@ def _with_slip(solver, walls):
 def _through_slips(solver, parts):
     for part in parts:
         solver.levels.numbers.slip(part)
-        report = from_here(solver)
+        report = solve_from_table(solver)
         if not report.converged:
             break
     return report
@@ -72,13 +72,13 @@ def _without_slip(solver):
     return _through_speeds(solver)
 
 
-def again(solver):
+def solve_again(solver):
     """Solve the pressure for other temperatures, independent of data from earlier linear solves."""
-    report = from_here(solver, CLOSE)
+    report = solve_from_table(solver, CLOSE)
     return report if report.converged else _through_speeds(solver)
 
 
-def from_here(solver, krylov_tolerance=None):
+def solve_from_table(solver, krylov_tolerance=None):
     """Solve from the pressure in the table, with a smaller Krylov tolerance if the first solve fails."""
     P, H0 = solver.levels.get(fields.P), solver.H0
     report = solver.solve(krylov_tolerance)
@@ -130,10 +130,10 @@ def _at_speed(solver, speed, P, H0):
     """Solve from P and H0 at `speed` times that of the scene; by time steps if that does not converge."""
     solver.levels.numbers.slow_down(1 / speed)
     report = solver.solve(CAREFUL)
-    return report if report.converged else in_time(solver, P, H0)
+    return report if report.converged else solve_in_time(solver, P, H0)
 
 
-def in_time(solver, P, H0):
+def solve_in_time(solver, P, H0):
     """March from P and H0 to the steady state in implicit time steps of growing length; then solve the steady equations."""
     v, step = solver.levels, 1.0
     for _ in range(TIME_STEPS):

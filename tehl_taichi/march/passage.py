@@ -13,7 +13,7 @@ from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
 from tehl_taichi.march.coupling import carefully, exchange, rounds
-from tehl_taichi.march.failure import crossed, not_converged
+from tehl_taichi.march.failure import crossed_surfaces, not_converged
 from tehl_taichi.march.feature_gap import sink, with_features
 from tehl_taichi.march.prediction import Prediction
 from tehl_taichi.march.snapshot import Snapshot
@@ -26,7 +26,7 @@ from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import RISES, pressure_solver
 from tehl_taichi.pressure.storage_term import Storage
 from tehl_taichi.scene import memory_demand
-from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.sections import AUTO
 from tehl_taichi.scene.timeline import step_cells, total_steps
@@ -156,7 +156,7 @@ class Passage:
     def _reject(self, report, part, done):
         self.rejected += 1
         if not self.parts.reject(part) and not self._double(done) and not self.parts.hold(self.heat):
-            at = f"{where(self.scene)} at {self.position(self.step + 1):.2f} a"
+            at = f"{position_word(self.scene)} at {self.position(self.step + 1):.2f} a"
             raise not_converged(self.solver, self.heat, report, f"step {self.step + 1} ({at}), down to {part:g} of it,",
                                 passing=True)
 
@@ -186,7 +186,7 @@ class Passage:
         gap).
         """
         if shot.fields["film"][self.border].min() < 0:
-            raise crossed(shot, self.scales.a, self.border)
+            raise crossed_surfaces(shot, self.scales.a, self.border)
         return shot
 
     def _describe(self, report, started):

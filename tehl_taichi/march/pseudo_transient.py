@@ -13,9 +13,9 @@ import math
 import numpy as np
 
 from tehl_taichi.heat.energy import LIGHT
-from tehl_taichi.march.alternating_start import FLUTTER, LONGEST_RUN, SETTLED, unsettled
+from tehl_taichi.march.alternating_start import FLUTTER, LONGEST_RUN, SETTLED, remaining_change
 from tehl_taichi.march.coupling import carefully, exchange
-from tehl_taichi.march.isothermal_start import again, put
+from tehl_taichi.march.isothermal_start import put, solve_again
 from tehl_taichi.march.substeps import Substeps
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.storage_term import Storage
@@ -120,7 +120,7 @@ class PseudoTransient:
     def rest(self, walls=1.0, most=None):
         """March blocks of steps with this part of the wall shear by pressure gradients, until series of them differ by less
         than SETTLED, after PATIENT blocks by less than STILL, or until `most` blocks. Returns the last difference (K), see
-        :func:`tehl_taichi.march.alternating_start.unsettled`.
+        :func:`tehl_taichi.march.alternating_start.remaining_change`.
         """
         self.mean, change = self.heat.T, math.inf
         means = [self.mean]
@@ -129,7 +129,7 @@ class PseudoTransient:
             if self.lost:  # what it reached before is a state in time
                 break
             means = [self.mean, *means[: 2 * LONGEST_RUN - 1]]
-            change = unsettled(means, self.P > LIGHT)
+            change = remaining_change(means, self.P > LIGHT)
             if change < (SETTLED if n < PATIENT else STILL) and self.heat.sound:
                 break
         return change
@@ -177,7 +177,7 @@ class PseudoTransient:
         self.levels.numbers.strain(1.0)
         self.levels.numbers.set_rate(0.0)
         self.levels.put(fields.QOLD, 0.0)
-        self.report = again(self.solver)
+        self.report = solve_again(self.solver)
 
     def _step(self):
         """Compute one step, in parts if it does not converge."""

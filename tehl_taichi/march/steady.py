@@ -10,10 +10,10 @@ from typing import Optional
 import numpy as np
 
 from tehl_taichi.heat.temperatures import FilmHeat
-from tehl_taichi.march.alternating_start import settle, time_step
+from tehl_taichi.march.alternating_start import find_steady, time_step
 from tehl_taichi.march.feature_gap import smooth_with
-from tehl_taichi.march.flooded_border import agreed, between_blocks, border_of
-from tehl_taichi.march.isothermal_start import from_here, from_nothing, in_time, put
+from tehl_taichi.march.flooded_border import between_blocks, border_of, iterate_border
+from tehl_taichi.march.isothermal_start import from_nothing, put, solve_from_table, solve_in_time
 from tehl_taichi.march.pseudo_transient import check, march_to_rest
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.isothermal import OneTemperature
@@ -88,13 +88,13 @@ def _with_temperatures(solver, heat, T, finest):
     """
     P, H0, resolved = solver.levels.get(fields.P), solver.H0, finest and not _touches(solver)
     border, solver.border = solver.border, None
-    report, trouble = settle(solver.levels, heat, between_blocks(solver, border), T)
-    report = agreed(solver, border, report)
+    report, trouble = find_steady(solver.levels, heat, between_blocks(solver, border), T)
+    report = iterate_border(solver, border, report)
     if report.converged and trouble and resolved:
         report = check(solver, heat)
     if report.converged or _touches(solver):  # surfaces that touch flip from step to step: no time makes up for the grid
         return report, False
-    report = agreed(solver, border, march_to_rest(solver, heat, P, H0, T, finest))
+    report = iterate_border(solver, border, march_to_rest(solver, heat, P, H0, T, finest))
     return report, finest and not (report.converged or heat.held) and math.isfinite(heat.report.change)
 
 
@@ -106,7 +106,7 @@ def _from_coarser(solver, P, H0):
     """Solve from the coarser grid's state; by time steps if Newton fails, as for a film too thin for the coarser grid."""
     P = refine(P)  # the border's, too
     put(solver, P, H0)
-    for way in (from_here, lambda each: in_time(each, P, H0), from_nothing):
+    for way in (solve_from_table, lambda each: solve_in_time(each, P, H0), from_nothing):
         report = way(solver)
         if report.converged:
             break

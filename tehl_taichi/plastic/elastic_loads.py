@@ -45,15 +45,15 @@ def find(passage, cells, state):
     count = cells.layers.count
     found = {layer: look.at(layer, look.first) for layer in range(0, count, EVERY)}
     near = look.around([t for t in look.first if max(seen[t].largest for seen in found.values()) > NEAR])
-    deep = [layer for layer in range(count) if near and max(_beside(found, layer)) > NEAR]
+    deep = [layer for layer in range(count) if near and max(_neighbouring_ratios(found, layer)) > NEAR]
     for layer in deep:
         known = found.get(layer, {})
         found[layer] = known | look.at(layer, [t for t in near if t not in known])
-    moments = [_joined([found[layer][t] for layer in deep]) for t in near]
+    moments = [_joined_layers([found[layer][t] for layer in deep]) for t in near]
     return ElasticLoads(moments, max((seen.largest for each in found.values() for seen in each.values()), default=0.0))
 
 
-def _beside(found, layer):
+def _neighbouring_ratios(found, layer):
     """Largest von Mises stress ratios of the first-computed layers at and beside a layer."""
     sides = {layer - layer % EVERY, layer - layer % EVERY + EVERY * (layer % EVERY > 0)} & found.keys()
     return [max((seen.largest for seen in found[n].values()), default=0.0) for n in sides]
@@ -121,7 +121,7 @@ class _Look:
         return _Seen(float(largest.max()), places, stress[x, y].astype(np.float32))
 
 
-def _joined(seen):
+def _joined_layers(seen):
     """(cell numbers, stresses) of all layers of a moment, joined."""
     places, stress = [one.places for one in seen], [one.stress for one in seen]
     return tuple(np.concatenate(places, axis=1)), np.concatenate(stress).astype(float)

@@ -18,7 +18,7 @@ def equivalent(deviatoric):
     return np.sqrt(1.5 * (WEIGHTS * deviatoric * deviatoric).sum(axis=-1))
 
 
-def returned(trial, hardened, flow_stress, G):
+def return_mapping(trial, hardened, flow_stress, G):
     """Return mapping: (plastic strain (n, 6), equivalent plastic strain (n,)) of deviatoric trial stresses (n, 6).
 
     hardened: equivalent plastic strain before; flow_stress: its function, Pa; G: shear modulus, Pa.

@@ -3,15 +3,15 @@
 from tehl_taichi.fatigue.stress.histories import MARGIN, WINDOW
 from tehl_taichi.plastic.half_space import PAD, odd_length
 from tehl_taichi.plastic.layers import layers
-from tehl_taichi.scene.run_in import flowing
+from tehl_taichi.scene.run_in import yielding_surfaces
 from tehl_taichi.scene.scales import Scales
 
 WAVE = 420.0  # bytes of a wave in a layer: blocks, strain, stress and their sums; measured on 39x20, 77x39 and 153x77 cells
 
 
-def needed(scene):
+def needed_bytes(scene):
     """Bytes that the run-in of a scene needs beside its passage, within 25 %; 0 without run-in."""
-    if not scene.runs_in or not flowing(scene):
+    if not scene.runs_in or not yielding_surfaces(scene):
         return 0.0
     a, grid = Scales.of(scene).a, scene.grid
     dx, dy = (grid.x_max - grid.x_min) * a / grid.nx, grid.y_max * a / grid.ny

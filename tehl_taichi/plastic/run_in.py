@@ -14,7 +14,7 @@ from tehl_taichi.plastic import elastic_loads, steel_body
 from tehl_taichi.plastic.layers import layers
 from tehl_taichi.plastic.steel_body import Cells, SteelState
 from tehl_taichi.plastic.surface_change import SurfaceChange
-from tehl_taichi.scene.run_in import flowing
+from tehl_taichi.scene.run_in import yielding_surfaces
 
 SAME = 0.02    # of the largest sinking: surfaces of two rounds of the first passage that are one
 SMALL = 1e-9   # m: less is no change of a surface
@@ -69,7 +69,7 @@ class RunInState:
                 if one.start.hardened.any()}
 
 
-def repeated(scene, march, state=RunInState(), keep=lambda state: None):
+def repeat_passages(scene, march, state=RunInState(), keep=lambda state: None):
     """Repeat passages of a scene with run-in. Returns (reader of the assessed passage, RunInState).
 
     march(changes): runs the passage on these surfaces, returns a reader for
@@ -77,26 +77,26 @@ def repeated(scene, march, state=RunInState(), keep=lambda state: None):
     end.
     """
     reader = march(state.changes)
-    while not (state := following(scene, reader, state)).done:
+    while not (state := state_after_passage(scene, reader, state)).done:
         keep(state)
         reader = march(state.changes)
     keep(state)
     return reader, state
 
 
-def following(scene, reader, state):
+def state_after_passage(scene, reader, state):
     """RunInState after the passage of `reader`, which ran on the surfaces of `state`."""
-    cells = {s.name: _cells(scene, elastic_loads.histories(scene, reader, s)) for s in flowing(scene)}
+    cells = {s.name: _cells(scene, elastic_loads.histories(scene, reader, s)) for s in yielding_surfaces(scene)}
     if not state.bodies:
         state = replace(state, bodies={name: _virgin(*one) for name, one in cells.items()})
-    found = {name: _after(*one, state.bodies[name].start) for name, one in cells.items()}
+    found = {name: _steel_after(*one, state.bodies[name].start) for name, one in cells.items()}
     new = max(float((found[name].hardened - one.start.hardened).max()) for name, one in state.bodies.items())
     settled = all(np.array_equal(one.surface, one.start.sinking) for one in state.bodies.values())
     if state.passages == scene.time.run_in or settled and new == 0.0:
         return replace(state, done=True, records=(*state.records, _record(state, found, judged=True)))
     if state.passages == 0:
-        return _coupled(state, found)
-    return _accepted(state, found)
+        return _next_round(state, found)
+    return _next_passage(state, found)
 
 
 def _cells(scene, passage):
@@ -119,32 +119,32 @@ def _virgin(passage, cells):
     return BodyRunIn(passage.x, passage.y, cells.layers.depths, cells.mirrored, start, start.sinking)
 
 
-def _after(passage, cells, start):
+def _steel_after(passage, cells, start):
     """SteelState that a passage leaves."""
-    return steel_body.after(cells, start, elastic_loads.find(passage, cells, start).moments)
+    return steel_body.state_after(cells, start, elastic_loads.find(passage, cells, start).moments)
 
 
-def _coupled(state, found):
+def _next_round(state, found):
     """State for the next round of the first passage, or for the next passage once the surface is reproduced or after ROUNDS."""
     rest = np.concatenate([(found[name].sinking - one.surface).ravel() for name, one in state.bodies.items()])
     largest = max(np.abs(one.sinking).max() for one in found.values())
     settled = np.abs(rest).max() <= max(SAME * largest, SMALL)
     if settled or state.rounds + 1 == ROUNDS:
-        return _accepted(replace(state, unsettled=0.0 if settled else float(np.abs(rest).max())), found)
-    part = HALF if state.rest is None else _part(state, rest)
+        return _next_passage(replace(state, unsettled=0.0 if settled else float(np.abs(rest).max())), found)
+    part = HALF if state.rest is None else _relaxed_share(state, rest)
     bodies = {name: replace(one, surface=one.surface + part * (found[name].sinking - one.surface))
               for name, one in state.bodies.items()}
     return replace(state, bodies=bodies, rounds=state.rounds + 1, rest=rest, part=part)
 
 
-def _part(state, rest):
+def _relaxed_share(state, rest):
     """Share of the way to the new surface for the next round, from the effect of the last share (Irons & Tuck 1969)."""
     less = state.rest - rest
     part = state.part * float(state.rest @ less) / max(float(less @ less), 1e-300)
     return float(np.clip(part, 0.1, 1.0))
 
 
-def _accepted(state, found):
+def _next_passage(state, found):
     """State before the next passage, which runs on the result of this one."""
     bodies = {name: replace(one, start=found[name], surface=found[name].sinking) for name, one in state.bodies.items()}
     return replace(state, bodies=bodies, passages=state.passages + 1, rounds=0, rest=None, part=HALF,

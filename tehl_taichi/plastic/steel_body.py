@@ -53,14 +53,14 @@ class SteelState:
         return cls(np.zeros(shape), np.zeros((shape[0], *cells.shape)), np.zeros(shape), np.zeros(cells.shape))
 
 
-def after(cells, state, moments):
+def state_after(cells, state, moments):
     """Return the SteelState after `moments`: [(cell numbers (layers, x, y), their elastic stress (n, 6) Pa)] of cells that may
     yield.
     """
-    flowing = np.concatenate([_flowing(cells, state, *one) for one in moments], axis=1) if moments else np.zeros((3, 0), int)
+    flowing = np.concatenate([_yielding(cells, state, *one) for one in moments], axis=1) if moments else np.zeros((3, 0), int)
     if not flowing.size:
         return state
-    part = _around(flowing, cells)
+    part = _slices_around(flowing, cells)
     zone = _Zone(cells, state, part)
     for places, stress in moments:
         inside = np.all([(one.start <= at) & (at < one.stop) for one, at in zip(part, places)], axis=0)
@@ -68,14 +68,14 @@ def after(cells, state, moments):
     return zone.left(state)
 
 
-def _flowing(cells, state, places, stress):
+def _yielding(cells, state, places, stress):
     """Numbers (3, n) of the cells that yield, given the state that earlier passages left."""
     layer, x, y = places
     size = flow.equivalent(flow.deviator(stress + state.residual[layer, :, x, y]))
     return np.stack(places)[:, size > cells.flow_stress(layer, state.hardened[layer, x, y]) * (1 + CLOSE)]
 
 
-def _around(places, cells):
+def _slices_around(places, cells):
     """Slices of layers, x and y around cells, with a margin for further yielding; from the surface on, and from y = 0 on if
     mirrored.
     """
@@ -116,7 +116,7 @@ class _Zone:
         found = strain
         for _ in range(ROUNDS):
             trial = flow.deviator(stress + self.residual[kinds]) + 2 * self.G * (found - strain)
-            more, grown = flow.returned(trial, hardened, lambda eps: self.cells.flow_stress(at[0], eps), self.G)
+            more, grown = flow.return_mapping(trial, hardened, lambda eps: self.cells.flow_stress(at[0], eps), self.G)
             change = strain + more - found
             found = found + RELAXED * change
             self.strain[kinds], self.hardened[at] = found, hardened + grown

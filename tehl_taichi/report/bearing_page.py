@@ -5,17 +5,17 @@ from pathlib import Path
 
 from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.report import place_sections
-from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
+from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
 from tehl_taichi.report.number_text import FEW, value_text
-from tehl_taichi.report.plots import Figure, axis, colour, line, stacked
+from tehl_taichi.report.plots import Figure, axis, colour, line, stack
 from tehl_taichi.report.verdict import limit_words, of_fatigue
 from tehl_taichi.runs.bearing import bearing_figure, bearing_table
 from tehl_taichi.runs.bearing.rolling_bearing import OF_BALLS, OF_ROLLERS, ROLLER, RollingBearing
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
-from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.runs.flank.flank_columns import error_of, value_at
 from tehl_taichi.scene import scene_file
 from tehl_taichi.store.reader import Reader
-from tehl_taichi.values.digits import fitting
+from tehl_taichi.values.digits import printed_unit
 from tehl_taichi.values.quantity import kinds
 
 QUESTION = "Does the bearing carry its load, and how thick is the film?"
@@ -27,7 +27,7 @@ def of(folder):
     heads, rows = bearing_table.elements(found)
     store, ring = _store(found)
     return Page(f"{found.name}: report", found.title, answer(found), (
-        Section("Loads and contacts", (facts(bearing_table.facts(found)), drawn(*figures(found)))),
+        Section("Loads and contacts", (facts(bearing_table.facts(found)), figure_block(*figures(found)))),
         *(dataclasses.replace(one, front=True) for one in place_sections.critical(store, f"{ring} ring")),
         *place_sections.scene(store, f"the {ring} ring"),
         Section("Both rings", tuple(table(["quantity", "inner ring", "outer ring"], rows, title)
@@ -72,7 +72,7 @@ def _film(found):
 
 def _central_film(one):
     """(h_c in m, its error or None, " (by formula)" if it is not computed)."""
-    film = dig(one, "summary", "steady", "h_c_m")
+    film = value_at(one, "summary", "steady", "h_c_m")
     return (one["film_formula_m"], None, " (by formula)") if film is None else (film, error_of(
         one["summary"], "steady", "h_c_m"), "")
 
@@ -104,8 +104,8 @@ def figures(found):
     if bearing_figure.has_slip(found):
         panels.append(("slip (m/s)", _lines(bearing_figure.slip(found), 2, legend=False), {}))
     return [Figure("bearing-loads", "Load of the elements around the ring.", [bars], layout, 330),
-            stacked("bearing-contacts", "Both contacts across rolling: Hertz pressure"
-                    f"{', and slip of the ring over the ball' * (len(panels) > 1)}.", bearing_figure.ACROSS, panels)]
+            stack("bearing-contacts", "Both contacts across rolling: Hertz pressure"
+                  f"{', and slip of the ring over the ball' * (len(panels) > 1)}.", bearing_figure.ACROSS, panels)]
 
 
 def _lines(found, panel, legend=True):
@@ -126,7 +126,7 @@ def _dimensions(found):
 def _value(value, declared):
     if not isinstance(value, float):
         return str(value)
-    factor, unit = fitting(declared.unit, value)
+    factor, unit = printed_unit(declared.unit, value)
     return f"{value * factor:.6g} {unit}".rstrip(" -")
 
 

@@ -3,12 +3,12 @@
 import numpy as np
 
 from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
-from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
+from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
 from tehl_taichi.report.number_text import FEW, sentence_case, unit_spelled, value_text
-from tehl_taichi.report.plots import colour, line, rings, stacked
+from tehl_taichi.report.plots import colour, line, rings, stack
 from tehl_taichi.runs.cam import cam_columns, cam_figure
 from tehl_taichi.runs.cam.stored_cam import Cam
-from tehl_taichi.runs.flank.flank_columns import dig, error_of
+from tehl_taichi.runs.flank.flank_columns import error_of, value_at
 from tehl_taichi.runs.flank.flank_figure import JUDGED
 from tehl_taichi.values.coded_text import without_options
 
@@ -20,7 +20,7 @@ def of(folder, out=None):
     number = place_sections.critical_number(cam.rows, _places(cam))
     store, words = (None, "") if number is None else (cam.store_of(number), _words(cam.rows[number][0]))
     return Page(f"{cam.name}: report", cam.title, _answer(cam, store), (
-        Section("Over the cycle", (drawn(*figures(cam)),)),
+        Section("Over the cycle", (figure_block(*figures(cam)),)),
         Section("Angles", (*(table([unit_spelled(head) for head in heads], lines, title)
                              for title, (heads, lines) in cam_columns.tables(cam.rows).items()),
                            position_pages.line(cam, out, _words))),
@@ -52,7 +52,7 @@ def _answer(cam, store):
 
 def _thinnest(cam):
     """Sentence about the smallest steady film; "" without results."""
-    films = [(dig(summary, "steady", "h_min_m"), error_of(summary, "steady", "h_min_m"), at) for at, _, summary in cam.rows
+    films = [(value_at(summary, "steady", "h_min_m"), error_of(summary, "steady", "h_min_m"), at) for at, _, summary in cam.rows
              if summary]
     if not films:
         return ""
@@ -62,7 +62,7 @@ def _thinnest(cam):
 
 def figures(cam):
     """Figures of the panels with values."""
-    return [stacked(f"cam-{n}", f"{sentence_case(label)}.", cam_figure.ANGLE, [(label, [
+    return [stack(f"cam-{n}", f"{sentence_case(label)}.", cam_figure.ANGLE, [(label, [
         _line(name, x.tolist(), y.tolist(), factor, colour(m)) for m, (name, (x, y, _)) in enumerate(lines.items())], {})],
         height=330) for n, (label, factor, lines) in enumerate(cam_figure.panels(cam))]
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tehl_taichi.report.plots import Figure, axis, colour, line, marks
-from tehl_taichi.scene.feature_wording import passing
+from tehl_taichi.scene.feature_wording import feature_word
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.view.figures.index_text import largest
@@ -25,7 +25,7 @@ def figures(store, search):
     panels = _load(store), _stress(search), _strength(search, left), _verdict(search)
     traces = [trace for n, found in enumerate(panels, 1) for trace in _panel(n, found)]
     caption = (f"From the load to the verdict, body {body}: largest pressure of the passage, stress under the "
-               f"{passing(search.scene)} at each depth, limit and residual stress there, and stress over limit.")
+               f"{feature_word(search.scene)} at each depth, limit and residual stress there, and stress over limit.")
     caption += " The residual stress with that of run-in is that under the critical point." * bool(left)
     return [Figure(f"{search.on}chain", caption, traces, _layout(), 640)]
 
@@ -54,14 +54,14 @@ def _load(store):
     X, moments = store.x / Scales.of(store.scene).a, Moments(store)
     shown = (X >= WINDOW[0]) & (X <= WINDOW[1])
     p = {n: store.fields(n, ("pressure",))["pressure"][shown, moments.line] / 1e9 for n in (moments.worst, 0)}
-    return [line(X[shown], p[moments.worst], f"with the {passing(store.scene)}", colour(0)),
+    return [line(X[shown], p[moments.worst], f"with the {feature_word(store.scene)}", colour(0)),
             line(X[shown], p[0], "smooth contact", GREY, dash="dash")]
 
 
 def _stress(search):
     result, z = search.result, search.result.row_depths * 1e6
     alone = result.findley_stress_contact_alone
-    return [line(result.findley_stress_under_row.max(axis=1) / 1e6, z, f"with the {passing(search.scene)}", colour(0),
+    return [line(result.findley_stress_under_row.max(axis=1) / 1e6, z, f"with the {feature_word(search.scene)}", colour(0),
                  in_legend=False),
             *([] if alone is None else [line(alone / 1e6, z, "smooth contact", GREY, dash="dash", in_legend=False)])]
 
@@ -94,7 +94,7 @@ def _verdict(search):
     result, z = search.result, search.result.row_depths * 1e6
     f, alone = result.numbers, result.index("findley_stress_contact_alone")
     deep = f["below"]
-    return [line(result.index("findley_stress_under_row").max(axis=1), z, f"with the {passing(search.scene)}", colour(0),
+    return [line(result.index("findley_stress_under_row").max(axis=1), z, f"with the {feature_word(search.scene)}", colour(0),
                  in_legend=False),
             *([] if alone is None else [line(alone, z, "smooth contact", GREY, dash="dash", in_legend=False)]),
             line([1.0, 1.0], [z[0], z[-1]], "Fi = 1", colour(2)),

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from tehl_taichi.report.document import PageBlock, Section, drawn, facts, sentences
+from tehl_taichi.report.document import PageBlock, Section, facts, figure_block, sentences
 from tehl_taichi.report.number_text import value_text
-from tehl_taichi.report.plots import colour, field_map, line, stacked
-from tehl_taichi.store.crack_file import kept
+from tehl_taichi.report.plots import colour, field_map, line, stack
+from tehl_taichi.store.crack_file import load
 from tehl_taichi.view.figures.crack_figures import BAND, SHOWN, along
 from tehl_taichi.view.figures.palette import GREY, TENSION
 
@@ -14,13 +14,14 @@ POSITION = "position of the feature x / a"
 
 def section(store):
     """(:class:`Section`,), or () without a stored crack result of this run. Raises StoreError."""
-    found = kept(store)
+    found = load(store)
     if not found:
         return ()
     summary, shown = found["summary"], found["drawn"]
     doubts = [doubt for side in summary["sides"].values() for doubt in side.get("doubts", [])]
     return (Section("Cracks", (PageBlock("text", {"sentences": verdict(summary)}), facts(_options(summary)),
-                               sentences(doubts, "Doubtful"), drawn(_map(summary, shown)), drawn(*_histories(shown)))),)
+                               sentences(doubts, "Doubtful"), figure_block(_map(summary, shown)),
+                               figure_block(*_histories(shown)))),)
 
 
 def verdict(summary):
@@ -94,4 +95,4 @@ def _history(name, cracks, position):
                       in_legend=panel == 1) for n, crack in enumerate(cracks)]
         panels.append((f"{key} (MPa√m)", lines, {}))
     caption = f"Stress intensities of the crack on the {name} side while the feature passes."
-    return stacked(f"K-{name}", caption, POSITION, panels, height=440)
+    return stack(f"K-{name}", caption, POSITION, panels, height=440)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tehl_taichi.report.embed import as_json, library, packed
+from tehl_taichi.report.embed import as_json, library, pack
 from tehl_taichi.values.coded_text import without_options
 from tehl_taichi.values.escape import label, printable
 
@@ -114,24 +114,24 @@ def links(rows, title):
     return PageBlock("links", {"rows": rows, "title": title}) if rows else None
 
 
-def drawn(*figures):
+def figure_block(*figures):
     """Figures next to each other if the page is wide enough; None without figures."""
     found = [figure for figure in figures if figure]
     return PageBlock("figures", {"figures": found}) if found else None
 
 
-def rendered(page):
+def render(page):
     """HTML of a :class:`Page`."""
     import jinja2
 
     world = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True,
-                               undefined=jinja2.StrictUndefined, finalize=_spelled)
-    figures = {name: _labelled(figure.spec) for name, figure in page.figures.items()}
+                               undefined=jinja2.StrictUndefined, finalize=_spell)
+    figures = {name: _escape_labels(figure.spec) for name, figure in page.figures.items()}
     return world.get_template("page.html").render(page=page, library=library() if figures else "",
-                                                  figures=packed(as_json(figures)))
+                                                  figures=pack(as_json(figures)))
 
 
-def _spelled(value):
+def _spell(value):
     """Value of a template with non-printing letters spelled."""
     return printable(value, "\n") if type(value) is str else value  # Markup is ours
 
@@ -139,10 +139,10 @@ def _spelled(value):
 LABELS = ("text", "name", "ticktext", "legendgroup")
 
 
-def _labelled(spec, key=""):
+def _escape_labels(spec, key=""):
     """Description of a figure with its labels escaped for plotly.js."""
     if isinstance(spec, dict):
-        return {name: _labelled(value, name) for name, value in spec.items()}
+        return {name: _escape_labels(value, name) for name, value in spec.items()}
     if isinstance(spec, (list, tuple)):
-        return [_labelled(value, key) for value in spec]
+        return [_escape_labels(value, key) for value in spec]
     return label(spec) if isinstance(spec, str) and key in LABELS else spec

@@ -16,7 +16,7 @@ from tehl_taichi.store.json_values import plain
 LEVEL = 6  # 9 takes three times as long for the numbers of figures, for 2 % less
 
 
-def packed(text):
+def pack(text):
     """Packed text (str) for a <script> of the page: a fifth to a half of the size."""
     return base64.b64encode(gzip.compress(text.encode(), LEVEL, mtime=0)).decode()
 
@@ -35,20 +35,20 @@ def library():
     """plotly.js from its Python package, packed."""
     from plotly.offline import get_plotlyjs
 
-    return packed(get_plotlyjs())
+    return pack(get_plotlyjs())
 
 
 def as_json(figures):
     """Figures as JSON text; arrays are typed, in single precision, as plotly.js reads them."""
-    return json.dumps(typed(figures), allow_nan=False, separators=(",", ":"))
+    return json.dumps(typed_arrays(figures), allow_nan=False, separators=(",", ":"))
 
 
-def typed(value):
+def typed_arrays(value):
     """`value` with {"dtype", "bdata", "shape"} in place of arrays."""
     if isinstance(value, dict):
-        return {key: typed(item) for key, item in value.items()}
+        return {key: typed_arrays(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [typed(item) for item in value]
+        return [typed_arrays(item) for item in value]
     if not isinstance(value, np.ndarray):
         return plain(value)
     shape = {"shape": ", ".join(map(str, value.shape))} if value.ndim > 1 else {}

@@ -5,13 +5,13 @@ import numpy as np
 from tehl_taichi.fatigue.findley import largest_principal, shear_path
 from tehl_taichi.fatigue.worst_point import on_circle
 from tehl_taichi.report.number_text import value_text
-from tehl_taichi.report.numbered_points import numbered
-from tehl_taichi.report.plots import colour, field_map, level, line, marks, stacked
-from tehl_taichi.scene.feature_wording import passing, position
+from tehl_taichi.report.numbered_points import number_trace
+from tehl_taichi.report.plots import colour, field_map, level, line, marks, stack
+from tehl_taichi.scene.feature_wording import feature_word, position_title
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures import distribution_figure
 from tehl_taichi.view.figures.index_text import index_text, largest
-from tehl_taichi.view.figures.limit_line import crossed, explained
+from tehl_taichi.view.figures.limit_line import crosses_limit, line_words
 from tehl_taichi.view.figures.map_panels import mirrored
 from tehl_taichi.view.figures.palette import GREY, INDEX, MARK
 from tehl_taichi.view.figures.search_data import beside_worst
@@ -64,8 +64,8 @@ def _map(search, which, where, Fi, found, more=""):
     """
     x, (y, full) = search.result.feature_frame_x * 1e6, mirrored(search.result.feature_frame_y * 1e6, Fi)
     trace = _trace(search, which, found, 0.12 * np.ptp(x)) if found else []
-    marked = [*_limit(x, y, full), _marked(search, Fi, found), *trace, *numbered(search)]
-    caption = f"Index Fi {where}, {search.when}{explained(bool(trace), crossed(full))}{more}."
+    marked = [*_limit(x, y, full), _marked(search, Fi, found), *trace, *number_trace(search)]
+    caption = f"Index Fi {where}, {search.when}{line_words(bool(trace), crosses_limit(full))}{more}."
     return field_map(f"{search.on}index-{which}", caption, x, y, full, INDEX, "Fi", search.along, "y (µm)", marked,
                      height=440)
 
@@ -99,7 +99,7 @@ def _briefly(search):
 
 def _limit(x, y, Fi):
     """Line Fi = 1 if the map crosses it; values above are clipped, which keeps pages small."""
-    if not crossed(Fi):
+    if not crosses_limit(Fi):
         return []
     i, j = (_around(np.any(Fi > 1, axis=axis)) for axis in (1, 0))
     return level(x[i], y[j], Fi[i, j], 1.0)
@@ -114,18 +114,18 @@ def _around(found):
 def _over_x(search, f, Fi):
     x = search.result.feature_frame_x * 1e6
     worst = marks([f["x_m"] * 1e6], [f["Fi_max"]], f"largest, plane {f['surface_angle_deg']:.0f}° to the surface", colour(1))
-    return stacked(f"{search.on}index", f"Index Fi of the surface, {search.when}.", search.along,
-                   [("Fi", [line(x, Fi[:, 0], "at the surface", colour(0)), worst], {})], height=440)
+    return stack(f"{search.on}index", f"Index Fi of the surface, {search.when}.", search.along,
+                 [("Fi", [line(x, Fi[:, 0], "at the surface", colour(0)), worst], {})], height=440)
 
 
 def distribution(search):
     """Figure of the share of rough surfaces above an index."""
-    if not distribution_figure.shown(search.result):
+    if not distribution_figure.has_distribution(search.result):
         return []
     traces = [line(Fi, 100 * share, label, colour(n))
               for n, (label, Fi, share) in enumerate(distribution_figure.curves(search.result))]
-    return [stacked(f"{search.on}distribution", "Share of the surface above an index.", "index Fi",
-                    [("share above (%)", traces, {"type": "log"})], height=360)]
+    return [stack(f"{search.on}distribution", "Share of the surface above an index.", "index Fi",
+                  [("share above (%)", traces, {"type": "log"})], height=360)]
 
 
 def depth(search):
@@ -138,8 +138,8 @@ def depth(search):
     even = np.linspace(0, z[-1], EVEN)
     section = np.stack([np.interp(even, z, column) for column in Fi.T])
     worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"critical point, Fi = {largest(deep)}", MARK)
-    caption = (f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the {passing(search.scene)}{_briefly(search)}"
-               f"{explained(False, crossed(section))}.")
+    caption = (f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the {feature_word(search.scene)}"
+               f"{_briefly(search)}{line_words(False, crosses_limit(section))}.")
     figure = field_map(f"{search.on}section", caption, x, even, section, INDEX, "Fi", search.along,
                        "below the surface (µm)", [*_limit(x, even, section), worst], true=False, height=440)
     figure.layout["yaxis"]["autorange"] = "reversed"
@@ -147,14 +147,14 @@ def depth(search):
 
 
 def _over_depth(search, f, deep, z, Fi):
-    traces = [line(Fi.max(axis=1), z, f"under the {passing(search.scene)}", colour(0)),
+    traces = [line(Fi.max(axis=1), z, f"under the {feature_word(search.scene)}", colour(0)),
               marks([deep["Fi_max"]], [deep["depth_m"] * 1e6], "largest below", colour(0)),
               marks([f["Fi_max"]], [0.0], "surface", colour(1), symbol="circle")]
     alone = search.result.index("findley_stress_contact_alone")
     if alone is not None:
         traces.append(line(alone, z, "smooth contact", GREY, dash="dash"))
-    return stacked(f"{search.on}over-depth", f"Largest index Fi at each depth{_briefly(search)}.", "largest Fi",
-                   [("below the surface (µm)", traces, {"autorange": "reversed"})], height=440)
+    return stack(f"{search.on}over-depth", f"Largest index Fi at each depth{_briefly(search)}.", "largest Fi",
+                 [("below the surface (µm)", traces, {"autorange": "reversed"})], height=440)
 
 
 def worst_points(search):
@@ -171,8 +171,8 @@ def _stresses(search, which, text, history):
     normal = shear_path(stress, history["normal"])[2]
     traces = [line(x, largest_principal(stress)[:-1] / 1e6, "largest principal stress σ₁", colour(0)),
               line(x, normal[:-1] / 1e6, "normal to the critical plane", colour(1))]
-    caption = f"Stresses of the {text} while the {passing(search.scene)} passes{_briefly(search)}."
-    return stacked(f"{search.on}stress-{which}", caption, position(search.scene), [("MPa", traces, {})], height=400)
+    caption = f"Stresses of the {text} while the {feature_word(search.scene)} passes{_briefly(search)}."
+    return stack(f"{search.on}stress-{which}", caption, position_title(search.scene), [("MPa", traces, {})], height=400)
 
 
 def _path(search, which, text, history):
@@ -185,6 +185,6 @@ def _path(search, which, text, history):
     caption = (f"Shear path of the "
                f"{text} on its critical plane{_briefly(search)}: amplitude {value_text(radius * 1e6, unit='Pa')}, "
                f"largest normal stress {value_text(normal.max(), unit='Pa')}.")
-    return stacked(f"{search.on}path-{which}", caption, "shear along dip (MPa)",
-                   [("shear along strike (MPa)", traces, {"scaleanchor": "x", "constrain": "domain"})], {"constrain": "domain"},
-                   height=400)
+    return stack(f"{search.on}path-{which}", caption, "shear along dip (MPa)",
+                 [("shear along strike (MPa)", traces, {"scaleanchor": "x", "constrain": "domain"})], {"constrain": "domain"},
+                 height=400)

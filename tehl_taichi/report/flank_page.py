@@ -2,16 +2,16 @@
 
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
-from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
+from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
 from tehl_taichi.report.number_text import FEW, sentence_case, unit_spelled, value_text
-from tehl_taichi.report.plots import colour, line, rings, stacked
+from tehl_taichi.report.plots import colour, line, rings, stack
 from tehl_taichi.runs.flank import specific_film
-from tehl_taichi.runs.flank.flank_columns import dig, plotted, tables
+from tehl_taichi.runs.flank.flank_columns import plotted_value, tables, value_at
 from tehl_taichi.runs.flank.flank_figure import JUDGED, PANELS
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.values.coded_text import without_options
-from tehl_taichi.values.digits import fitting
+from tehl_taichi.values.digits import printed_unit
 from tehl_taichi.values.quantity import kinds
 from tehl_taichi.view.figures.palette import GREY
 
@@ -32,7 +32,7 @@ def of(folder, out=None):
     number = place_sections.critical_number(flank.rows, judged_places(flank))
     store, words = (None, "") if number is None else (flank.store_of(number), _where(flank.rows[number][0]))
     return Page(f"{flank.name}: report", f"{flank.title}, {len(flank.rows)} positions", _answer(flank, store), (
-        Section("Along the flank", (drawn(*figures(flank)),)),
+        Section("Along the flank", (figure_block(*figures(flank)),)),
         Section("Positions", (*(table([unit_spelled(head) for head in heads], lines, title)
                                 for title, (heads, lines) in tables(flank.rows).items()),
                               position_pages.line(flank, out, short_name))),
@@ -73,7 +73,7 @@ def _answer(flank, store):
     left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not part of this answer."
     count = f"Number of warnings, listed below: {len(warnings(flank))}."
     none = [f"No verdict at {_where(at)}: {why_none(part)}." for at, _, summary in flank.rows
-            if (part := dig(summary, "fatigue")) and why_none(part)]
+            if (part := value_at(summary, "fatigue")) and why_none(part)]
     doubts = (*place_sections.limit(store), *none, *[left] * bool(flank.failed), f"Assumed: {flank.record['assumption']}.",
               *[count] * bool(warnings(flank)))
     if found := verdict(flank):
@@ -103,8 +103,8 @@ def figures(flank):
 def _figure(flank, n, title, lines):
     """One of these figures, with the points A to E."""
     letters = ", dotted: the points of the path of contact" if flank.points else ""
-    made = stacked(f"flank-{n}", f"{sentence_case(title)}; dedendum left of the pitch point{letters}.", ALONG,
-                   [(title, lines, {})], height=330)
+    made = stack(f"flank-{n}", f"{sentence_case(title)}; dedendum left of the pitch point{letters}.", ALONG,
+                 [(title, lines, {})], height=330)
     made.layout["shapes"] = [_mark(x * 1e3) for x in flank.points.values()]
     made.layout["annotations"] = [{"text": name, "x": x * 1e3, "xref": "x", "yref": "paper", "y": 1, "yanchor": "bottom",
                                    "showarrow": False} for name, x in flank.points.items()]
@@ -135,7 +135,7 @@ def _series(flank, what):
     x: list[float | None] = []
     y: list[float | None] = []
     for at, p_H, summary in flank.rows:
-        value, _ = plotted(at, p_H, summary, what)
+        value, _ = plotted_value(at, p_H, summary, what)
         if value is not None and x and x[-1] == at.x_pl:
             x, y = [*x, at.x_pl], [*y, None]
         if value is not None:
@@ -160,7 +160,7 @@ def value_in(unit, value):
     """Text of a number of the gears with its unit."""
     if isinstance(value, (str, int)):
         return str(value)
-    factor, shown = fitting(unit, value)
+    factor, shown = printed_unit(unit, value)
     return f"{value * factor:.6g} {READ.get(shown, shown)}".rstrip(" -")
 
 
@@ -177,7 +177,7 @@ def film_words(flank):
 
 def no_film_words(flank):
     """(sentence,) about the reason why film over roughness is missing, () if it exists."""
-    if specific_film.smallest(flank) or any(dig(summary, "lambda") is not None for *_, summary in flank.rows):
+    if specific_film.smallest(flank) or any(value_at(summary, "lambda") is not None for *_, summary in flank.rows):
         return ()
     return ("λ is not known: the surfaces are smooth, and no roughness of the flanks is given (gear.Ra1, gear.Ra2).",)
 

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from tehl_taichi.report.passage_plots import columns, thinned
+from tehl_taichi.report.passage_plots import columns, even_numbers
 from tehl_taichi.report.plots import field_map
-from tehl_taichi.scene.feature_wording import passing
+from tehl_taichi.scene.feature_wording import feature_word
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures.field_maps import ends, film_ends
 from tehl_taichi.view.figures.line_figures import ALONG, SURFACES
-from tehl_taichi.view.figures.map_panels import EDGE, MIDDLE, half_axis, lies, mirrored
+from tehl_taichi.view.figures.map_panels import EDGE, MIDDLE, half_axis, is_turned, mirrored
 from tehl_taichi.view.figures.moments import Moments
 from tehl_taichi.view.figures.palette import FILM, PRESSURE, TEMPERATURE
 
@@ -31,7 +31,7 @@ def maps(store):
     fields = store.fields(n, list(styles))
     styles["film"] = _film(moments, fields["film"])
     out = [_map(moments, name, values, styles[name], when) for name, values in fields.items()]
-    if lies(store.scene):
+    if is_turned(store.scene):
         out += [_map(moments, name, fields[name], styles[name], when, MIDDLE) for name in ("pressure", "film")]
     return _alike(out)
 
@@ -39,7 +39,7 @@ def maps(store):
 def rows(store):
     """Lists of these maps, each for a row of a page: a turned ellipse takes the whole width."""
     found = maps(store)
-    if not found or not lies(store.scene):
+    if not found or not is_turned(store.scene):
         return [found] if found else []
     middles = [figure for figure in found if figure.name.endswith(SHORT)]
     whole = [[figure] for figure in found if not figure.name.endswith(SHORT)]
@@ -51,11 +51,11 @@ def _map(moments, name, values, style, when, side=0.0):
     text, scale, unit, factor, keys = style
     store, where = moments.store, columns(moments.store)
     y, full = mirrored(store.y / moments.a, values[where] * factor)
-    x, lying = store.x[where] / moments.a, lies(store.scene)
+    x, lying = store.x[where] / moments.a, is_turned(store.scene)
     if lying:
         near = np.flatnonzero(np.abs(y) <= (side or EDGE * Scales.of(store.scene).b / moments.a))
         y, full = y[near], full[:, near]
-    kept = thinned(y.size, 2 * ROWS)
+    kept = even_numbers(y.size, 2 * ROWS)
     y, full = y[kept], full[:, kept]
     title = f"{text}{', middle of the contact' * bool(side)}: {when}."
     across = f"y / a{half_axis(store.scene)}"
@@ -82,7 +82,7 @@ def _when(moments):
 
 def _styles(store):
     """{field: (title, colours, unit, factor, ends of the colours)}."""
-    whose = {f"surface {one.name}": f", which carries the {passing(store.scene)}" for one in store.scene.surfaces
+    whose = {f"surface {one.name}": f", which carries the {feature_word(store.scene)}" for one in store.scene.surfaces
              if one.features and store.scene.transient}
     heat: dict[str, tuple] = {name: (f"Temperature, {text}{whose.get(text, '')}", TEMPERATURE, "°C", 1.0, {})
             for name, text, _ in SURFACES if name in store.stored}

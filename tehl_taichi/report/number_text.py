@@ -1,6 +1,6 @@
 """Printed numbers: in a suitable unit, with as many digits as their error allows."""
 
-from tehl_taichi.values.digits import fitting, parted, with_error
+from tehl_taichi.values.digits import printed_unit, rounded_parts, with_error
 
 UNITS = {"degC": "°C", "1": ""}  # of stores: as they are written
 
@@ -9,16 +9,16 @@ def value_text(value, error=None, unit="1", digits=4):
     """Text such as '1.008 ± 0.023 µm' of a value and its error in SI; error None: unknown, then `digits` digits of the
     value.
     """
-    factor, scale = fitting(UNITS.get(unit, unit), value)
+    factor, scale = printed_unit(UNITS.get(unit, unit), value)
     return with_error(value * factor, None if error is None else error * factor, scale, digits)
 
 
-def apart(value, error, unit, digits=4):
+def text_parts(value, error, unit, digits=4):
     """(value, error, unit) as texts: two digits of the error set the digits of the value; unknown error: `digits` digits, and
     ''.
     """
-    factor, scale = fitting(UNITS.get(unit, unit), value)
-    text, rest, power = parted(value * factor, None if error is None else error * factor, digits)
+    factor, scale = printed_unit(UNITS.get(unit, unit), value)
+    text, rest, power = rounded_parts(value * factor, None if error is None else error * factor, digits)
     return text + power, rest and rest + power, scale
 
 

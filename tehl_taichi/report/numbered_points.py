@@ -8,7 +8,7 @@ from tehl_taichi.fatigue.index_peaks import around, worst_places
 from tehl_taichi.report.document import table
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.run_tables import in_file
-from tehl_taichi.scene.feature_wording import passing
+from tehl_taichi.scene.feature_wording import feature_word
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures.height_profile import height_at
 from tehl_taichi.view.figures.index_text import index_text
@@ -61,7 +61,7 @@ def _below(search):
     return search.result.index("findley_stress_at_worst_depth")
 
 
-def numbered(search):
+def number_trace(search):
     """[trace] with their numbers on a map."""
     found = search.places
     text = [str(n) for n in range(1, len(found) + 1)]
@@ -77,8 +77,8 @@ def rows(search):
     if not found:
         return None
     head, cells = zip(*_columns(search, scene, found))
-    caption = (f"Points of the {passing(scene)} with the largest index, numbered as on the maps. x, y: from its centre; Fi: "
-               f"largest value within {value_text(APART / 2 * Scales.of(scene).a, unit='m', digits=3)}.")
+    caption = (f"Points of the {feature_word(scene)} with the largest index, numbered as on the maps. x, y: from its centre; "
+               f"Fi: largest value within {value_text(APART / 2 * Scales.of(scene).a, unit='m', digits=3)}.")
     return table(("critical point", *head), [(str(n), *row) for n, row in enumerate(zip(*cells), 1)], caption)
 
 
@@ -90,7 +90,7 @@ def _columns(search, scene, found):
     if found[0].below is not None:
         depth = value_text(float(search.result.worst_depth[0]), unit="m", digits=3)
         yield f"Fi {depth} below", [index_text(p.below) for p in found]
-    if passing(scene) == "scan":
+    if feature_word(scene) == "scan":
         yield "in the file, counted from 1", [_in_file(scene, p) for p in found]
 
 

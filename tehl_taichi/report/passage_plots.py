@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from tehl_taichi.report.plots import colour, line, stacked
-from tehl_taichi.scene.feature_wording import passing, position
+from tehl_taichi.report.plots import colour, line, stack
+from tehl_taichi.scene.feature_wording import feature_word, position_title
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures.line_figures import ALONG, SURFACES, carrier
 from tehl_taichi.view.figures.moments import WINDOW, Moments
@@ -16,7 +16,7 @@ FIELDS = (("pressure (GPa)", 1e-9, {"pressure": ""}), ("film (µm)", 1e6, {"film
           ("temperature (°C)", 1.0, {name: text for name, text, _ in SURFACES}))
 
 
-def thinned(count, most):
+def even_numbers(count, most):
     """At most `most` of the numbers 0 to count - 1, evenly spaced, with the first and the last."""
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
 
@@ -24,14 +24,14 @@ def thinned(count, most):
 def moments(store):
     """Entries at which the slider stops: evenly spaced ones, and those of the largest pressure and the smallest film."""
     extremes = [Moments(store).worst, int(np.argmin(store.scalar("h_min_m")))]
-    return np.union1d(thinned(store.steps, MOMENTS), extremes)
+    return np.union1d(even_numbers(store.steps, MOMENTS), extremes)
 
 
 def columns(store):
     """Shown columns of the grid: the contact and its surroundings."""
     X = store.x / Scales.of(store.scene).a
     near = np.flatnonzero((X >= WINDOW[0]) & (X <= WINDOW[1]))
-    return near[thinned(len(near), COLUMNS)]
+    return near[even_numbers(len(near), COLUMNS)]
 
 
 def centreline(store):
@@ -44,8 +44,8 @@ def centreline(store):
         if found := {name: text for name, text in names.items() if name in lines}:
             traces = [trace for name, text in found.items() for trace in _traces(X, lines[name], name, text, len(panels) + 1)]
             panels.append((title, traces, {"range": _range(store, lines, found)}))
-    return stacked("centreline", _caption(store, shown), ALONG, panels, {"range": _ends(X)},
-                   _slides(store, shown, lines, panels) if len(shown) > 1 else {})
+    return stack("centreline", _caption(store, shown), ALONG, panels, {"range": _ends(X)},
+                 _slides(store, shown, lines, panels) if len(shown) > 1 else {})
 
 
 def _lines(store, shown, where):
@@ -113,7 +113,7 @@ def _caption(store, shown):
     along = Moments(store).along
     caption = f"{along[0].upper()}{along[1:]}.{_carries(store)}"
     if len(shown) > 1:
-        caption += f" Grey: the steady start; dotted: the centre of the {passing(store.scene)}."
+        caption += f" Grey: the steady start; dotted: the centre of the {feature_word(store.scene)}."
     left = [f"{len(shown)} of {store.steps} stored moments"] * (len(shown) < store.steps)
     return caption + (f" {left[0]} are kept in this page." if left else "")
 
@@ -140,7 +140,7 @@ def histories(store):
         if lines:
             panels.append((title, lines, {}))
     caption = f"One value per time step; the contact lies between −1 and 1.{_carries(store)}"
-    return stacked("histories", caption, position(store.scene), panels)
+    return stack("histories", caption, position_title(store.scene), panels)
 
 
 LEFT_OVER = {"residual": "residual", "load_error": "load", "mass_error": "mass"}
@@ -153,5 +153,5 @@ def residual_plot(store):
     x = store.scalar("step")
     traces = [line(x, np.maximum(store.scalar(name), 1e-16), text, colour(n))
               for n, (name, text) in enumerate(LEFT_OVER.items())]
-    return stacked("left-over", "Residual of the discrete equations, error of the load and of the mass at each step.", "step",
-                   [("relative", traces, {"type": "log", "exponentformat": "power"})])
+    return stack("left-over", "Residual of the discrete equations, error of the load and of the mass at each step.", "step",
+                 [("relative", traces, {"type": "log", "exponentformat": "power"})])

@@ -1,13 +1,13 @@
 """Sections of pages about sequences of contacts: critical position with its maps, common scene, meaning of the limit."""
 
 from tehl_taichi.report import fatigue_plots, map_plots, place_verdict, scene_text, surface_plots
-from tehl_taichi.report.document import PageBlock, Section, drawn, facts
+from tehl_taichi.report.document import PageBlock, Section, facts, figure_block
 from tehl_taichi.report.searches import searches
 from tehl_taichi.report.verdict import limit_words
-from tehl_taichi.runs.flank.flank_columns import dig
+from tehl_taichi.runs.flank.flank_columns import value_at
 from tehl_taichi.runs.summary import limit_meaning
 from tehl_taichi.store.attributes import text
-from tehl_taichi.view.figures.map_panels import lies
+from tehl_taichi.view.figures.map_panels import is_turned
 
 MAPS = ("map-pressure", "map-film")
 
@@ -18,7 +18,7 @@ def critical_number(rows, places):
     """
     if places:
         return place_verdict.worst(places).number
-    films = {n: film for n, (*_, summary) in enumerate(rows) if (film := dig(summary, "steady", "h_min_m")) is not None}
+    films = {n: film for n, (*_, summary) in enumerate(rows) if (film := value_at(summary, "steady", "h_min_m")) is not None}
     return min(films, key=lambda n: films[n], default=None)
 
 
@@ -28,8 +28,8 @@ def critical(store, words):
         return ()
     maps = [figure for figure in map_plots.maps(store) if figure.name in MAPS]
     index = fatigue_plots.index(searches(store)[0]) if "fatigue" in store.summary else []
-    rows = [[one] for one in maps] if lies(store.scene) else [maps]
-    parts = [part for part in (drawn(*index), *(drawn(*row) for row in rows)) if part]
+    rows = [[one] for one in maps] if is_turned(store.scene) else [maps]
+    parts = [part for part in (figure_block(*index), *(figure_block(*row) for row in rows)) if part]
     return (Section(f"Critical position: {words}", tuple(parts)),) if parts else ()
 
 

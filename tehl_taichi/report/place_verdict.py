@@ -75,7 +75,7 @@ def worst(places):
     return max(places, key=lambda place: (place.state, place.Fi))
 
 
-def unseparated(places):
+def overlapping_places(places):
     """The worst place and those whose error bars overlap with its bar, along the path."""
     top = worst(places)
     return [place for place in places if place is top or _overlap(place, top)]
@@ -87,7 +87,7 @@ def _overlap(place, top):
 
 def answer(places, count):
     """(headline, tone, sentences); places: not empty; count: of all positions."""
-    top, group = worst(places), unseparated(places)
+    top, group = worst(places), overlapping_places(places)
     text, tone = _load_too(_headline(places, top, group), places)
     return text, tone, _sentences(places, top, group, count)
 

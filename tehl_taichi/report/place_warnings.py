@@ -1,6 +1,6 @@
 """Warnings of a sequence of contacts, each kind once with its places."""
 
-from tehl_taichi.values.coded_warning import of_lists
+from tehl_taichi.values.coded_warning import warnings_of_lists
 
 MANY = 3  # places that are named one by one
 
@@ -20,7 +20,7 @@ def of(rows, words, spelled=str):
 
 
 def _warnings(summary):
-    return of_lists(summary.get("warnings", []), summary.get("warning_codes", []), summary.get("warning_data", []))
+    return warnings_of_lists(summary.get("warnings", []), summary.get("warning_codes", []), summary.get("warning_data", []))
 
 
 def _sentence(found, count):

@@ -52,7 +52,7 @@ def _in(panel):
     return {} if panel == 1 else {"yaxis": f"y{panel}"}
 
 
-def stacked(name, caption, x_title, panels, x=None, more=None, height=0):
+def stack(name, caption, x_title, panels, x=None, more=None, height=0):
     """Panels of lines below each other over one x; None without panels.
 
     panels: (title of y, traces with the number of their panel, keys of its axis); x: keys of the common axis; height: px, if

@@ -11,7 +11,7 @@ from tehl_taichi.report.verdict import FATIGUE
 from tehl_taichi.runs.open_results import INSIDE, RUN, kind, open_run
 from tehl_taichi.runs.summary import life, result_warnings
 from tehl_taichi.scene import fatigue_limits, scene_file
-from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.scene.timeline import total_steps
 
@@ -95,7 +95,7 @@ def _words(scene):
             *((f"the strength of body {name}", scene_tables.strength_words(f, name)) for name in "ab"),
             ("depths searched:", _depths(f.depths)),
             ("bodies searched:", " and ".join(surface.name for surface in scene.judged)),
-            ("moments with the", moments(scene) or f"{where(scene)} anywhere"),
+            ("moments with the", moments(scene) or f"{position_word(scene)} anywhere"),
             ("shear tractions", "included" if f.shear else "not included"),
             ("thermal stress", "included" if scene.has_thermal_stress else "not included"),
             ("the exponent of the S-N curve", f"{f.exponent:g}" + f" ({f.limit_cycles:g} passages)" * bool(f.exponent)),

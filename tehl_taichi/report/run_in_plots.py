@@ -1,7 +1,7 @@
 """Section of a report on run-in: heights before and after, change of the surface by passage, residual stress."""
 
-from tehl_taichi.report.document import Section, drawn
-from tehl_taichi.report.plots import axis, colour, field_map, line, stacked
+from tehl_taichi.report.document import Section, figure_block
+from tehl_taichi.report.plots import axis, colour, field_map, line, stack
 from tehl_taichi.view.figures import run_in_data
 from tehl_taichi.view.figures.palette import GREY, RESULT
 
@@ -14,15 +14,15 @@ def section(store):
         return ()
     state = store.run_in
     found = run_in_data.profile(store.scene, state)
-    return (Section("Run-in", (drawn(_heights(found), _passages(state.records)), drawn(*_residual(found)))),)
+    return (Section("Run-in", (figure_block(_heights(found), _passages(state.records)), figure_block(*_residual(found)))),)
 
 
 def _heights(found):
     """Figure of heights along the middle, before and after."""
     lines = [line(found.x * 1e6, found.before * 1e6, "before", GREY, dash="dash"),
              line(found.x * 1e6, found.after * 1e6, "after run-in", colour(0))]
-    return stacked("run-in-height", f"Heights of body {found.body} along the middle, before and after run-in.", ALONG,
-                   [("height (µm)", lines, {})], height=330)
+    return stack("run-in-height", f"Heights of body {found.body} along the middle, before and after run-in.", ALONG,
+                 [("height (µm)", lines, {})], height=330)
 
 
 def _passages(records):
@@ -32,8 +32,8 @@ def _passages(records):
             "showlegend": False, "marker": {"color": [GREY if one["judged"] else colour(0) for one in records]}}
     caption = ("Change of the surface by each passage; grey: the passage that is judged, whose change is not taken over. "
                f"Its new plastic strain is {records[-1]['new_plastic_strain']:.1g}.")
-    return stacked("run-in-passages", caption, "passage", [("surface change (nm)", [bars], {"rangemode": "tozero"})],
-                   x={"tickvals": numbers}, height=330)
+    return stack("run-in-passages", caption, "passage", [("surface change (nm)", [bars], {"rangemode": "tozero"})],
+                 x={"tickvals": numbers}, height=330)
 
 
 def _residual(found):

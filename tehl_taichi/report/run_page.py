@@ -16,9 +16,9 @@ from tehl_taichi.report import (
     verdict,
     zoom_plots,
 )
-from tehl_taichi.report.document import Page, PageBlock, Section, drawn, facts, sentences
+from tehl_taichi.report.document import Page, PageBlock, Section, facts, figure_block, sentences
 from tehl_taichi.report.searches import searches
-from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.store.attributes import text
 from tehl_taichi.store.reader import Reader
 from tehl_taichi.values.coded_text import without_options
@@ -54,13 +54,13 @@ def scene_section(scene, source):
 def _film(store):
     """Section about pressure, film and temperatures."""
     line, histories = passage_plots.centreline(store), passage_plots.histories(store)
-    moved, maps = line.more.get("slides"), tuple(drawn(*row) for row in map_plots.rows(store))
+    moved, maps = line.more.get("slides"), tuple(figure_block(*row) for row in map_plots.rows(store))
     if not moved:
-        return Section("Film and pressure", (drawn(line), *maps), front=True),
+        return Section("Film and pressure", (figure_block(line), *maps), front=True),
     slider = PageBlock("slider", {"figures": [line], "first": moved["first"], "last": len(moved["at"]) - 1,
-                             "what": where(store.scene)})
+                             "what": position_word(store.scene)})
     return (Section("Passage", (slider,), front="fatigue" not in store.summary),
-            Section("Histories", (drawn(histories), run_tables.solid_contact(store.summary))),
+            Section("Histories", (figure_block(histories), run_tables.solid_contact(store.summary))),
             Section("Moment of the largest pressure", maps))
 
 
@@ -77,14 +77,15 @@ def _of_search(store, search, of, lead, front):
     """Three sections of a search; of: text in their headings; lead: start of the text about its moments, if there are two
     searches; front: it decides the verdict.
     """
-    shown = drawn(*fatigue_plots.distribution(search), *fatigue_plots.index(search), *fatigue_plots.depth(search))
+    shown = figure_block(*fatigue_plots.distribution(search), *fatigue_plots.index(search), *fatigue_plots.depth(search))
     behind = NO_MAPS if shown is None else DARK if search.on else ""
     words, numbers = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short), search.result.numbers
     return (Section(f"Fatigue{of}", (PageBlock("text", {"sentences": words}) if words else None,
-                                     drawn(*chain_plot.figures(store, search)), shown, numbered_points.rows(search)),
+                                     figure_block(*chain_plot.figures(store, search)), shown, numbered_points.rows(search)),
                     front),
             Section(f"Critical points{of}", (run_tables.worst_points(numbers, search.scene), run_tables.tension(numbers))),
-            Section(f"Stresses at the critical points{of}", tuple(drawn(*pair) for pair in fatigue_plots.worst_points(search))))
+            Section(f"Stresses at the critical points{of}",
+                    tuple(figure_block(*pair) for pair in fatigue_plots.worst_points(search))))
 
 
 def _sentence(words):
@@ -94,5 +95,5 @@ def _sentence(words):
 def _made(store):
     """Section about errors, and origin of the numbers."""
     return (Section("Numbers and their errors", tuple(run_tables.errors(store.summary))),
-            Section("Numerics", (run_tables.numerics(store), drawn(passage_plots.residual_plot(store)))),
+            Section("Numerics", (run_tables.numerics(store), figure_block(passage_plots.residual_plot(store)))),
             Section("Provenance", (run_tables.provenance(store),)))

@@ -4,12 +4,12 @@ import json
 
 from tehl_taichi.march import quantities
 from tehl_taichi.report.document import facts, sentences, table
-from tehl_taichi.report.number_text import FEW, apart, index, roughly, share, value_text
+from tehl_taichi.report.number_text import FEW, index, roughly, share, text_parts, value_text
 from tehl_taichi.runs.summary.summary_rows import contact_share
-from tehl_taichi.scene.feature_wording import passing
+from tehl_taichi.scene.feature_wording import feature_word
 from tehl_taichi.store import integrity
 from tehl_taichi.values.coded_text import Reason, reasons_of
-from tehl_taichi.view.figures.index_text import resolved
+from tehl_taichi.view.figures.index_text import resolved_words
 
 PARTS = (("steady", "steady start"), ("transient", "passage"), ("fatigue", "fatigue"))
 SHORT = 30  # letters of a reason that stands in the row itself
@@ -21,16 +21,17 @@ def errors(summary):
     """Tables of the numbers with an error or a reason why it is unknown, followed by the long reasons, once each."""
     head: tuple = ("what", "value", "error", "relative")
     reasons: list[str] = []
-    tables = [table(head, [row for found in _in_order(summary.get(part, {})) for row in _with_below(reasons, *found)], when)
+    tables = [table(head, [row for found in _parts_in_order(summary.get(part, {}))
+                           for row in _with_below(reasons, *found)], when)
               for part, when in PARTS]
     return [*tables, sentences([f"{_mark(n)} {why}" for n, why in enumerate(reasons)], "Why an error is unknown")]
 
 
-def _in_order(values):
+def _parts_in_order(values):
     """[(numbers, text after their names)]; the resolved part, which decides the verdict, is first."""
     if "resolved" not in values:
         return [(values, "")]
-    return [(values["resolved"], f", {resolved(values['resolved'])}"), (values, ", whole passage")]
+    return [(values["resolved"], f", {resolved_words(values['resolved'])}"), (values, ", whole passage")]
 
 
 def _with_below(reasons, found, more):
@@ -51,7 +52,7 @@ def _with_errors(values, reasons):
         if values.get(name) is None:
             continue
         says, unit = _meaning(name)
-        value, shown, scale = apart(values[name], error, unit, FEW)
+        value, shown, scale = text_parts(values[name], error, unit, FEW)
         value = roughly(values[name]) if name == "Fi_max" and error is None else value
         why = reasons_of(values).get(name, Reason("not estimated"))
         yield (says, f"{value} {scale}".strip(), _in_row(why, reasons) if error is None else f"{shown} {scale}".strip(),
@@ -87,13 +88,14 @@ POINT = (("index Fi", "Fi_max", "1"), ("stress of the criterion", "findley_stres
 def worst_points(fatigue, scene):
     """Table of the worst points at and below the surface."""
     points = [("surface", {"depth_m": 0.0, **fatigue}), *([("below it", fatigue["below"])] if "below" in fatigue else [])]
-    rows = [(text.format(passing(scene)), *(_of_point(point, key, unit) for _, point in points)) for text, key, unit in POINT]
+    rows = [(text.format(feature_word(scene)), *(_of_point(point, key, unit) for _, point in points))
+            for text, key, unit in POINT]
     return table(("critical point", *(where for where, _ in points)), rows + _in_file(scene, [point for _, point in points]))
 
 
 def _in_file(scene, points):
     """[(label, position of each point in the file of the scan)]; [] if positions are not those of a scan."""
-    if passing(scene) != "scan":
+    if feature_word(scene) != "scan":
         return []
     return [("nearest point in the file of the scan", *(in_file(scene, p["x_m"], p["y_m"]) for p in points))]
 
@@ -151,7 +153,7 @@ FROM = ("command", "date", "version", "commit", "python", "numpy", "pyfftw", "za
 
 def provenance(store):
     """Rows of provenance: attributes of the store, and the runtime of its process."""
-    runtime = integrity.optional(store.attrs, "runtime", {})
+    runtime = integrity.optional_value(store.attrs, "runtime", {})
     rows = [(key, str(store.attrs[key])) for key in FROM if key in store.attrs]
     return facts([("store", store.path.name), *rows, *((key, _word(runtime[key])) for key in ("taichi", "arch", "threads")
                                                        if key in runtime)])

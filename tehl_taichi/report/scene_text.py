@@ -7,7 +7,7 @@ from tehl_taichi.laws import viscosity
 from tehl_taichi.laws.rheology import LAWS
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.scene import data_sheet, fatigue_limits, mineral_alpha
-from tehl_taichi.scene.feature_wording import between, passing, where
+from tehl_taichi.scene.feature_wording import feature_word, position_word, range_words
 from tehl_taichi.scene.named_oils import NO_SOURCE
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.strength import scene_tables
@@ -57,7 +57,7 @@ def _motion(scene):
     if o.srr == 0:
         return f"The surfaces roll at {o.u_m:.4g} m/s without slip."
     kind = "slower" if scene.reference.speed < o.u_m else "faster"
-    carries = f"; the {passing(scene)} is on the {kind} surface, {scene.reference.name}" if scene.features else ""
+    carries = f"; the {feature_word(scene)} is on the {kind} surface, {scene.reference.name}" if scene.features else ""
     return (f"The surfaces move at {o.u_a:.4g} m/s (a) and {o.u_b:.4g} m/s (b): mean {o.u_m:.4g} m/s, slide-to-roll ratio "
             f"{o.srr:+.3g}{carries}.")
 
@@ -102,8 +102,8 @@ def _sizes(f):
 def moments(scene):
     """Text such as 'feature up to 0.5 a': moments of a passage that count, '' if all do."""
     f = scene.fatigue
-    ends = between(f.from_x, f.to_x)
-    return f"{where(scene)} {ends}" if ends else ""
+    ends = range_words(f.from_x, f.to_x)
+    return f"{position_word(scene)} {ends}" if ends else ""
 
 
 def when(scene):
@@ -158,7 +158,7 @@ def _inlet(scene):
 
 def _of_sheet(oil):
     """Rows of the data sheet behind the law's numbers, in its units; none without a sheet."""
-    if not data_sheet.is_given(vars(oil)):
+    if not data_sheet.has_sheet(vars(oil)):
         return []
     rows = [(f"data sheet: kinematic viscosity at {at} °C", f"{nu * 1e6:.4g} mm²/s") for at, nu in
             ((40, oil.nu_40), (100, oil.nu_100))]
@@ -168,7 +168,7 @@ def _of_sheet(oil):
 
 def _alpha(oil):
     """Row of the pressure coefficient of the data sheet, or its estimate."""
-    if not data_sheet.estimated(oil):
+    if not data_sheet.is_alpha_estimated(oil):
         return "data sheet: α at 40 °C", f"{oil.alpha_40 * 1e9:.4g} 1/GPa"
     alpha = data_sheet.alpha_40(oil.nu_40, oil.rho0, oil.Dz)
     return ("α at 40 °C, not on the data sheet", f"{alpha * 1e9:.3g} 1/GPa, estimated as for a mineral oil, within "

@@ -9,8 +9,8 @@ from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.report import numbered_points
 from tehl_taichi.report.scene_text import when
 from tehl_taichi.scene import Scene
-from tehl_taichi.scene.feature_wording import from_centre, where
-from tehl_taichi.view.figures.index_text import PART, resolved
+from tehl_taichi.scene.feature_wording import from_centre, position_word
+from tehl_taichi.view.figures.index_text import PART, resolved_words
 
 
 @dataclass(frozen=True)
@@ -45,5 +45,5 @@ def searches(store, result=None):
     over = when(scene) + body + ", pressure alone" * bool(why_none(result.summary))
     if not (part := result.part):
         return [Search(scene, result, over)]
-    return [Search(scene, part, resolved(part.summary, where(scene)), "resolved-", PART),
+    return [Search(scene, part, resolved_words(part.summary, position_word(scene)), "resolved-", PART),
             Search(scene, result, f"{over}, later pressures not resolved by the grid", short=over)]

@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl_taichi.report.document import Answer, Page, Section, drawn, facts, sentences, table
+from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.run_page import scene_section
 from tehl_taichi.report.study_plots import figures
 from tehl_taichi.report.verdict import limit_words
 from tehl_taichi.runs.sweep import study_figures
-from tehl_taichi.runs.sweep.study_labels import parted, valued
+from tehl_taichi.runs.sweep.study_labels import label_with_value, name_and_unit
 from tehl_taichi.runs.sweep.study_table import Study, attributes
 from tehl_taichi.scene.aliases import full_name
 from tehl_taichi.values.digits import with_error
@@ -25,7 +25,7 @@ def of(folder):
     study = Study.open(folder)
     scene, keys = study.plan.scene, ", ".join(study.plan.keys)
     return Page(f"{scene.name}: report of a study", f"{scene.name}: {len(study)} cases over {keys}", _answer(study), (
-        Section("Results", (drawn(*figures(study)),)), Section("Cases", (_table(study), _rest(study))),
+        Section("Results", (figure_block(*figures(study)),)), Section("Cases", (_table(study), _rest(study))),
         Section("Without a result", (sentences(_failed(study)),)), _scene(study),
         Section("Provenance", (facts(_provenance(study)),))))
 
@@ -39,13 +39,13 @@ def _scene(study):
 def _swept(study):
     """A sentence on the values of every swept key."""
     for key in study.plan.keys:
-        numbers, label, words = study_figures.along(study, key, per_case=True)
+        numbers, label, words = study_figures.axis_values(study, key, per_case=True)
         ends = [words[int(which(numbers))] for which in (np.argmin, np.argmax)]
         several = len(dict.fromkeys(words))
         if study_figures.numeric(study, key) and several > 2:
-            yield f"{valued(label, ' to '.join(ends))}: {several} values in place of that below."
+            yield f"{label_with_value(label, ' to '.join(ends))}: {several} values in place of that below."
         else:
-            yield f"{valued(label, ', '.join(dict.fromkeys(words)))} in place of that below."
+            yield f"{label_with_value(label, ', '.join(dict.fromkeys(words)))} in place of that below."
 
 
 def _column(study, name):
@@ -81,7 +81,7 @@ def _ranges(study):
     for name in study_figures.usual(study):
         values, errors, label = study_figures.with_errors(study, name)
         if np.isfinite(values).any():
-            name, unit = parted(label)
+            name, unit = name_and_unit(label)
             low, top = (f"{_cell(values, errors, n)}{f' {unit}' * bool(unit)} ({_changes(study, n)})"
                         for n in (int(np.nanargmin(values)), int(np.nanargmax(values))))
             yield f"{name[0].upper()}{name[1:]}: {low} to {top}."
@@ -108,12 +108,12 @@ def _errors(study):
 
 
 def _changes(study, n):
-    keys = (study_figures.along(study, key, per_case=True) for key in study.plan.keys)
-    return ", ".join(valued(label, words[n]) for _, label, words in keys)
+    keys = (study_figures.axis_values(study, key, per_case=True) for key in study.plan.keys)
+    return ", ".join(label_with_value(label, words[n]) for _, label, words in keys)
 
 
 def _table(study):
-    keys = [study_figures.along(study, key, per_case=True) for key in study.plan.keys]
+    keys = [study_figures.axis_values(study, key, per_case=True) for key in study.plan.keys]
     columns = [study_figures.with_errors(study, name) for name in study_figures.usual(study)]
     rows = [[str(n), *(words[n] for *_, words in keys), row["status"],
              *(_cell(values, errors, n) if np.isfinite(values[n]) else "" for values, errors, _ in columns)]

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from tehl_taichi.report.plots import colour, field_map, line, marks, stacked
-from tehl_taichi.runs.sweep.study_figures import along, curve_keys, curve_rows, numeric, usual, with_errors
-from tehl_taichi.runs.sweep.study_labels import parted, valued
+from tehl_taichi.report.plots import colour, field_map, line, marks, stack
+from tehl_taichi.runs.sweep.study_figures import axis_values, curve_keys, curve_rows, numeric, usual, with_errors
+from tehl_taichi.runs.sweep.study_labels import label_with_value, name_and_unit
 from tehl_taichi.view.figures.palette import RESULT
 
 MOST_LINES = 12
@@ -32,18 +32,18 @@ def _lines(study, name):
     """Figure over one key, a line for each value of the other key (some if there are many)."""
     values, errors, label = with_errors(study, name)
     first = curve_keys(study)[0]
-    x, x_label, words = along(study, first)
+    x, x_label, words = axis_values(study, first)
     rows, bars, seconds = curve_rows(study, values), curve_rows(study, errors), _seconds(study, label)
     shown = np.unique(np.linspace(0, len(rows) - 1, min(len(rows), MOST_LINES)).astype(int))
     traces = [line(x, rows[n], seconds[n], colour(k), in_legend=len(rows) > 1, mode="lines+markers", **_bars(bars[n]))
               for k, n in enumerate(shown)]
-    return stacked(f"{name}-lines", f"{label}, over {x_label}.", x_label, [(_title(label), traces, {})],
-                   _ticks(x, words, numeric(study, first)), height=400)
+    return stack(f"{name}-lines", f"{label}, over {x_label}.", x_label, [(_title(label), traces, {})],
+                 _ticks(x, words, numeric(study, first)), height=400)
 
 
 def _title(label):
     """Title of a vertical axis: only the unit if the label is too long; the caption has both."""
-    return label if len(label) <= LONGEST or not parted(label)[1] else parted(label)[1]
+    return label if len(label) <= LONGEST or not name_and_unit(label)[1] else name_and_unit(label)[1]
 
 
 def _bars(errors):
@@ -57,14 +57,14 @@ def _seconds(study, label):
     """Names of the lines."""
     if len(study.plan.keys) == 1:
         return [label]
-    _, second, words = along(study, curve_keys(study)[1])
-    return [valued(second, word) for word in words]
+    _, second, words = axis_values(study, curve_keys(study)[1])
+    return [label_with_value(second, word) for word in words]
 
 
 def _map(study, name):
     """Map over two keys, one cell per case."""
     values, label = column(study, name)
-    (x, x_label, x_words), (y, y_label, y_words) = (along(study, key) for key in study.plan.keys)
+    (x, x_label, x_words), (y, y_label, y_words) = (axis_values(study, key) for key in study.plan.keys)
     places = np.arange(len(x), dtype=float), np.arange(len(y), dtype=float)
     made = field_map(f"{name}-map", f"{label}: one cell per case, empty without a result.", *places,
                      values.reshape(study.plan.shape), RESULT, label, x_label, y_label, true=False, height=400, zsmooth=False)
@@ -76,11 +76,11 @@ def _map(study, name):
 def _points(study, name, key):
     """Figure of all cases over one key."""
     values, errors, label = with_errors(study, name)
-    x, x_label, words = along(study, key, per_case=True)
+    x, x_label, words = axis_values(study, key, per_case=True)
     dots = marks(x, values, label, colour(0), symbol="circle", showlegend=False, **_bars(errors))
     dots["marker"] |= {"size": 6, "line": {"width": 0}}
-    return stacked(f"{name}-{key}", f"{label} of all cases against {x_label}.", x_label, [(_title(label), [dots], {})],
-                   _ticks(x, words, numeric(study, key)), height=330)
+    return stack(f"{name}-{key}", f"{label} of all cases against {x_label}.", x_label, [(_title(label), [dots], {})],
+                 _ticks(x, words, numeric(study, key)), height=330)
 
 
 def _ticks(x, words, numbers):

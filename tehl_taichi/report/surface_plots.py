@@ -5,10 +5,10 @@ import os
 
 import numpy as np
 
-from tehl_taichi.report.document import Section, drawn, facts, table
+from tehl_taichi.report.document import Section, facts, figure_block, table
 from tehl_taichi.report.number_text import value_text
-from tehl_taichi.report.passage_plots import thinned
-from tehl_taichi.report.plots import colour, field_map, line, stacked
+from tehl_taichi.report.passage_plots import even_numbers
+from tehl_taichi.report.plots import colour, field_map, line, stack
 from tehl_taichi.scene import surface_roughness
 from tehl_taichi.scene.feature_wording import carriers, from_centre
 from tehl_taichi.scene.surface.maps.height_map import LEVELS
@@ -32,7 +32,7 @@ def section(scene, summary):
     if not scene.transient:
         return ()
     maps = [f for f in scene.features if f.kind.measured]
-    parts = drawn(picture(scene)), *(facts(measured(f, scene)) for f in maps), *roughness(scene, summary)
+    parts = figure_block(picture(scene)), *(facts(map_facts(f, scene)) for f in maps), *roughness(scene, summary)
     return (Section("The surface", parts),)
 
 
@@ -60,13 +60,13 @@ def _rough_value(numbers, keys, unit):
 def picture(scene):
     """Figure of the heights of all features together, over x, y or over x alone."""
     found = heights(scene)
-    i, j = (thinned(at.size, MOST) for at in (found.x, found.y))
+    i, j = (even_numbers(at.size, MOST) for at in (found.x, found.y))
     x, y, values = found.x[i] * 1e6, found.y[j] * 1e6, found.values[i][:, j] * 1e6
     along = from_centre(scene)
     caption = f"Heights of the features, on {carriers(scene)}."
     if found.line:
         drawn_line = line(x, values[:, 0], "height", colour(0), in_legend=False)
-        return stacked("surface", caption, along, [("height (µm)", [drawn_line], {})], height=330)
+        return stack("surface", caption, along, [("height (µm)", [drawn_line], {})], height=330)
     caption += _kept(found, i, j) + HOLES * bool(found.filled.any())
     return field_map("surface", caption, x, y, _stepped(values), HEIGHT, "µm", along, "y (µm)", _holes(found, i, j),
                      true=found.true, height=440)
@@ -97,7 +97,7 @@ def _kept(found, i, j):
     return f" {i.size} × {j.size} of {found.x.size} × {found.y.size} points are kept in this page."
 
 
-def measured(f, scene):
+def map_facts(f, scene):
     """(label, value) of a map: of its file, and of the passing heights."""
     m, sides = f.measures, [size for size, count in zip(f.patch, f.points) if count > 1]
     turned = f", times {f.scale:g}" if f.scale != 1 else ""

@@ -10,7 +10,7 @@ from tehl_taichi.report.number_text import index, value_text
 from tehl_taichi.report.scene_text import WHOLE, material, moments, when
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.summary import life, limit_meaning, rim_warnings
-from tehl_taichi.runs.summary.result_warnings import place, steel_bodies
+from tehl_taichi.runs.summary.result_warnings import place_text, steel_bodies
 from tehl_taichi.scene import feature_wording, yield_stress
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import total_steps
@@ -73,13 +73,13 @@ def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
     if why := why_none(fatigue):
         return FATIGUE, f"No verdict: {why}.", "open", _from_pressure(searches)
     over, (parts, early) = when(scene) if scene else WHOLE, deciding(searches)
-    worst, places, known, sentences = _judged(searches)
+    worst, places, known, sentences = _judged_indices(searches)
     rough = any(searched(one).get("rough") for one in searches.values())
     verdict = headline(worst, places, known, ", by the 99th percentile of the index" * rough)
     if rough:
         sentences = ["99th percentile of the index:", *sentences, *_spread(searches)]
     elif early:
-        verdict, sentences = _by_what_is_known(parts, worst, sentences, over, feature_wording.where(scene))
+        verdict, sentences = _by_what_is_known(parts, worst, sentences, over, feature_wording.position_word(scene))
     text, tone = _load_too(verdict, searches)
     return FATIGUE, text, tone, (*_alone_words(searches), *sentences, *_plane(fatigue))
 
@@ -90,16 +90,16 @@ def _from_pressure(searches):
     return ("From the pressure alone, without surface shear and frictional heat:", *sentences)
 
 
-def _judged(searches):
+def _judged_indices(searches):
     """(worst index, text of its places, whether its errors are known, sentences)."""
     found = _judged_layers(searches)
     worst = max(state for *_, state in found)
-    places = _listed([where for where, _, _, state in found if state == worst])
+    places = _enumeration([where for where, _, _, state in found if state == worst])
     known = all(error is not None for _, _, error, state in found if state == worst)
     return worst, places, known, [_index_sentence(*layer) for layer in found]
 
 
-def _listed(words):
+def _enumeration(words):
     """Text such as 'A, B and C'."""
     return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
@@ -116,7 +116,7 @@ def _by_what_is_known(parts, whole, sentences, over, whose):
     parts: {surface: summary of that part}; whole: worst index of the whole search over these moments; whose: text of the
     position at its end.
     """
-    worst, places, known, early = _judged(parts)
+    worst, places, known, early = _judged_indices(parts)
     end = f"{whose} up to {_place(next(iter(parts.values()))['to_x_a'])}"
     sentences = [f"While the grid resolves the pressure ({end}; the rest can only add):", *early,
                  f"{over[0].upper()}{over[1:]}, where the grid does not resolve the pressure:", *sentences]
@@ -227,7 +227,7 @@ def _yielding(summary):
                "bodies.")
     if "run_in" in summary:
         elastic = "This body has no yield stress, so it is elastic here, while a real one would yield."
-    return (f"The von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place(found, 'µm')}, more than "
+    return (f"The von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place_text(found, 'µm')}, more than "
             f"{yield_stress.words(found['yield_stress_Pa'])}. {elastic}",)
 
 

@@ -22,7 +22,7 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
     if pages:
         _position_pages(folder, force)
     page = search.page(progress, threads) if search else page_of(folder, out)
-    user_files.text(out, document.rendered(page), force, kind="html")
+    user_files.text(out, document.render(page), force, kind="html")
     return out
 
 
@@ -47,7 +47,7 @@ def _position_pages(folder, force):
     if (which := kind(folder)) not in (FLANK, CAM):
         raise SceneError(f"pages of positions exist of a flank or a cam, and {folder} is a {which}")
     position_pages.write(opened(folder), force, lambda store, path: user_files.text(
-        path, document.rendered(run_page.page(store)), force, kind="html", of=folder))
+        path, document.render(run_page.page(store)), force, kind="html", of=folder))
 
 
 def default_page(folder, end=""):

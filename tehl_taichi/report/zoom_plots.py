@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from tehl_taichi.report.document import Section, drawn
+from tehl_taichi.report.document import Section, figure_block
 from tehl_taichi.report.passage_plots import FIELDS, film_top
-from tehl_taichi.report.plots import colour, field_map, line, stacked
+from tehl_taichi.report.plots import colour, field_map, line, stack
 from tehl_taichi.view.figures.line_figures import ALONG
 from tehl_taichi.view.figures.map_panels import mirrored
 from tehl_taichi.view.figures.moments import Moments
@@ -19,7 +19,8 @@ def section(store):
     if window is None or not window.entries.size:
         return ()
     lines = _lines(store, window)
-    return (Section("Zoom window", tuple(drawn(*row) for row in ((lines,) if lines else (), _maps(store, window)) if row)),)
+    rows = ((lines,) if lines else (), _maps(store, window))
+    return (Section("Zoom window", tuple(figure_block(*row) for row in rows if row)),)
 
 
 def _lines(store, window):
@@ -37,7 +38,7 @@ def _lines(store, window):
             panels.append((title, [line(x / moments.a, values * factor, text, hue, len(panels) + 1, in_legend=not panels)
                                    for x, values, text, hue in both], _ends(store, name)))
     along = f"{moments.along[0].upper()}{moments.along[1:]}"
-    return stacked("zoom-lines", f"{along}, {moments.says(n)}: the largest pressure of the window.", ALONG, panels)
+    return stack("zoom-lines", f"{along}, {moments.says(n)}: the largest pressure of the window.", ALONG, panels)
 
 
 def _ends(store, name):

@@ -27,12 +27,12 @@ TELL = 1.0  # s between two words that the run waits for it
 LONG, HEAVIER = 5e6, 5.0  # with temperatures a step takes so many times as long
 
 
-def idle():
+def idle_cores():
     """Number of idle cores: 0 in a worker of a study, because the other workers use them."""
-    return 0 if job.working() else cores.available() - runtime.ensure()["threads"]
+    return 0 if job.is_worker() else cores.available() - runtime.ensure()["threads"]
 
 
-def lasts(scene):
+def takes_long(scene):
     """Whether a run takes long."""
     return coarse_runs.work(scene) * (1.0 if scene.isothermal else HEAVIER) >= LONG
 
@@ -45,11 +45,11 @@ def background_answers(scene):
     returns a function of notify(done, total), which waits for the result of
     :func:`tehl_taichi.march.accuracy.coarse_runs.answers`. The background process ends with the context.
     """
-    if not (coarse_runs.has_coarse_runs(scene) and lasts(scene) and idle() > 0):
+    if not (coarse_runs.has_coarse_runs(scene) and takes_long(scene) and idle_cores() > 0):
         yield lambda until: functools.partial(coarse_runs.answers, scene, until=lambda: until)
         return
     read, write = os.pipe()
-    with open(write, "wb", 0) as word, _started(scene, read, min(idle(), runtime.ensure()["threads"])) as process:
+    with open(write, "wb", 0) as word, _started(scene, read, min(idle_cores(), runtime.ensure()["threads"])) as process:
         os.close(read)
         try:
             yield functools.partial(_wait_for, process, word, scene)

@@ -4,7 +4,7 @@ MANY = 9.0  # relative change from which a factor is read better than per cent
 NOT_SEPARATED = "not separated"  # the error bars of both numbers overlap
 
 
-def separated(first, second):
+def are_separated(first, second):
     """Whether the error bars of two (value, error bar or None) do not overlap; None if an unknown bar decides."""
     bars = [error for _, error in (first, second) if error is not None]
     if bars and abs(second[0] - first[0]) <= sum(bars):
@@ -20,7 +20,7 @@ def change(first, second, nothing=0.0, unit=""):
     (a, error), (b, _) = first, second
     if a == b:
         return ""
-    if separated(first, second) is False:
+    if are_separated(first, second) is False:
         return NOT_SEPARATED
     if unit == "degC":
         return f"{b - a:+.1f} K"

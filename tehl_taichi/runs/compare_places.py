@@ -7,8 +7,8 @@ from os import PathLike
 from pathlib import Path
 
 from tehl_taichi.runs import compare_labels, place_table
-from tehl_taichi.runs.compare_change import change, separated
-from tehl_taichi.runs.compare_rows import NONE, in_order
+from tehl_taichi.runs.compare_change import are_separated, change
+from tehl_taichi.runs.compare_rows import NONE, merged_order
 from tehl_taichi.runs.open_results import kind
 from tehl_taichi.runs.open_results import open as opened
 from tehl_taichi.values.digits import with_error
@@ -43,14 +43,14 @@ class PlaceRow:
         if len(self.numbers) != 2 or None in self.numbers:
             return ""
         words = change(*self.numbers, nothing_of(self.name), unit_of(self.name))
-        return words + UNKNOWN * bool(words and self.quantity.barred and separated(*self.numbers) is None)
+        return words + UNKNOWN * bool(words and self.quantity.barred and are_separated(*self.numbers) is None)
 
     def to_dict(self):
         """Entry in the JSON object."""
         pair = len(self.numbers) == 2 and None not in self.numbers
         values, errors = zip(*(one or (None, None) for one in self.numbers))
         return {"quantity": self.name, "at": self.place.words, "values": list(values), "errors": list(errors),
-                **({"separated": separated(*self.numbers), "change": self.change} if pair else {})}
+                **({"separated": are_separated(*self.numbers), "change": self.change} if pair else {})}
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ class PlaceComparison:
     def places(self) -> list:
         """All places, sorted along their axis."""
         known = {place.key: place for table in reversed(self.tables) for place in table.places}
-        found = [known[key] for key in in_order([[place.key for place in table.places] for table in self.tables])]
+        found = [known[key] for key in merged_order([[place.key for place in table.places] for table in self.tables])]
         return found if self.tables[0].ticks else sorted(found, key=lambda place: place.x)
 
     def x_of(self, place):
@@ -116,7 +116,7 @@ class PlaceComparison:
     def quantities(self) -> dict:
         """{name: quantity} of all quantities with numbers."""
         known = {name: one for table in reversed(self.tables) for name, one in table.quantities.items()}
-        order = in_order([list(table.quantities) for table in self.tables])
+        order = merged_order([list(table.quantities) for table in self.tables])
         numbered = {name for table in self.tables for name, _ in table.numbers}
         return {name: known[name] for name in order if name in numbered}
 

@@ -24,11 +24,11 @@ class ComparisonRow:
 def lines(summaries):
     """List of :class:`ComparisonRow` of the summaries of runs ({} for an unfinished one), in the order of `tehl show`."""
     runs = [{(row.part, row.what): row for row in rows_of(summary)} if summary else {} for summary in summaries]
-    keys = in_order([list(run) for run in runs])
-    return [_line(what, [run.get(key) for run in runs]) for key, what in zip(keys, _distinguished(keys))]
+    keys = merged_order([list(run) for run in runs])
+    return [_line(what, [run.get(key) for run in runs]) for key, what in zip(keys, _with_parts(keys))]
 
 
-def _distinguished(keys):
+def _with_parts(keys):
     """Texts of the quantities (part, quantity), with the part if the quantity occurs in an earlier part."""
     seen = set()
     for part, what in keys:
@@ -36,7 +36,7 @@ def _distinguished(keys):
         seen.add(what)
 
 
-def in_order(lists):
+def merged_order(lists):
     """Every key once: those of the first list; others after the key that they follow in their list."""
     out = list(lists[0])
     for keys in lists[1:]:

@@ -59,7 +59,7 @@ class ContactSet:
         links.refuse(folder)
         if cls.lies_in(folder):
             cls.open(folder)
-            files.tidy(folder)
+            files.remove_temporaries(folder)
         else:
             cls._check_free(folder)
 
@@ -109,7 +109,7 @@ class ContactSet:
         """
         texts = {self._file(self.folder): json.dumps(self.record, indent=1, allow_nan=False),
                  self.folder / f"{self.KIND}.csv": self._csv()}
-        with files.blamed(self.folder, "cannot write to"):
+        with files.disk_errors(self.folder, "cannot write to"):
             self.folder.mkdir(parents=True, exist_ok=True)  # where no contact converged there are no stores
             for path, text in texts.items():
                 files.replace(path, text.encode())

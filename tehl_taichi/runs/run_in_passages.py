@@ -3,7 +3,7 @@
 The last passage is assessed. A killed run resumes inside its current passage.
 """
 
-from tehl_taichi.plastic.run_in import repeated
+from tehl_taichi.plastic.run_in import repeat_passages
 from tehl_taichi.store import run_in_file
 
 
@@ -27,7 +27,7 @@ def march(saved, state, progress, once):
     if known.done:
         passage(known.changes)
         return known
-    return repeated(saved.scene, passage, known, keep)[1]
+    return repeat_passages(saved.scene, passage, known, keep)[1]
 
 
 def _words(state):

@@ -29,7 +29,7 @@ def plugins_checked():
     """[(file, name of entry, known value, computed value as text, whether they agree)] of the entries of plugins."""
     for registry in REGISTRIES:
         importlib.import_module(f"tehl_taichi.{registry}")
-    return [(module.__file__, entry.name, *_checked(known)) for module in plugins.loaded()
+    return [(module.__file__, entry.name, *_checked(known)) for module in plugins.loaded_modules()
             for entry in entries_of(module) for known in entry.checked]
 
 

@@ -48,7 +48,7 @@ def _check_memory(scene):
         return memory_demand.check(scene)
     from tehl_taichi.plastic import memory
 
-    memory_demand.check(scene, memory.needed(scene))
+    memory_demand.check(scene, memory.needed_bytes(scene))
 
 
 def open(path: str | PathLike, stand_in: bool = False) -> Run:
@@ -80,7 +80,7 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     return continued(path, rest, threads, began, progress)
 
 
-def completed(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:
+def run_or_resume(scene: Scene, path: str | PathLike, *, threads: int | None = None, progress: Progress | None = None) -> Run:
     """Finished run of `scene` in the store at `path`: the existing one, resumed, or run now.
 
     Raises StoreError if the store has another scene, and the errors of :func:`run` and :func:`resume`.
@@ -185,7 +185,7 @@ def _finish(saved, state, steady, clock, progress):
         coarse_answers = start_coarse(until)
         alone = _fatigue(saved, until, progress)
         found, arrays = (alone.summaries, alone.to_arrays()) if alone else ({}, None)
-        steel = _of_steel(saved.scene, run_in) if run_in else {}
+        steel = _run_in_part(saved.scene, run_in) if run_in else {}
         _add_contact_alone(found, steady["steady_contact_alone"])
         sure = {name: one for name, one in found.items() if not why_none(one)}
         domain = DomainError.from_values(steady["steady_domain"])
@@ -229,7 +229,7 @@ def _march(saved, state, progress):
     return run_in_passages.march(saved, state, progress, once)
 
 
-def _of_steel(scene, run_in):
+def _run_in_part(scene, run_in):
     """Part {"run_in": its numbers} of the summary."""
     from tehl_taichi.plastic import run_in_numbers
 
@@ -322,10 +322,10 @@ def _what_is_left(path):
         return f"; {path} can no longer be read"
     if left.finished:
         return f"; {path} is finished"
-    return f" after {left.store.last_step} steps{_missing(left)}; resume with: tehl resume {path}"
+    return f" after {left.store.last_step} steps{_missing_words(left)}; resume with: tehl resume {path}"
 
 
-def _missing(left):
+def _missing_words(left):
     """Text of the missing part of a passage."""
     from tehl_taichi.scene.timeline import total_steps
 

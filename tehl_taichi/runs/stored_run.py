@@ -88,7 +88,7 @@ class Run:
         return summary_numbers.find(self.summary, name)
 
     def _ipython_key_completions_(self):
-        return list(summary_numbers.every(self.summary))
+        return list(summary_numbers.all_numbers(self.summary))
 
     def fatigue(self, *, progress: Any = None, threads: int | None = None, until: float | None = None, **constants: Any) -> Any:
         """Recompute its fatigue with other constants, see :func:`tehl_taichi.fatigue`; the store is not changed.
@@ -256,11 +256,11 @@ class Run:
         steps : int, optional
             Number of further steps; default: to the end that the run was given, for a finished run to the end of its passage.
         """
-        from tehl_taichi.scene.timeline import continued
+        from tehl_taichi.scene.timeline import remaining_scene
 
         if not self.finished and not steps:
             return self.scene
-        found = continued(self.scene, self.store.last_step, steps)
+        found = remaining_scene(self.scene, self.store.last_step, steps)
         return found or (None if self.finished else self.scene)
 
     def __repr__(self):

@@ -9,7 +9,7 @@ from tehl_taichi.march.passage import march
 from tehl_taichi.runs.pace import about
 from tehl_taichi.scene import domain_warnings
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.scene.timeline import total_steps, uncut
+from tehl_taichi.scene.timeline import total_steps, whole_passage
 from tehl_taichi.store.store import Store
 
 TRIED, COUNTED = 5, 3  # first steps that are tried, and those that count: kernels are compiled in the ones before
@@ -25,7 +25,7 @@ def lines(run, coarse):
     """Sentences about the time of the whole passage of a :class:`tehl_taichi.Run` that holds its steady start; a few trial
     steps are computed and not stored. [] for a steady scene. coarse: (nx, ny) of the grid to propose for a long run.
     """
-    scene = uncut(run.scene)
+    scene = whole_passage(run.scene)
     total, pace = total_steps(scene), _pace(run.path, scene) if run.scene.transient else None
     if not run.scene.transient or pace is None:
         return []
@@ -88,7 +88,7 @@ def _middle(scene):
 def _share(scene, changes):
     """Nodes times steps of the changed scene over those of the scene; 1 if it is refused."""
     try:
-        return _work(uncut(scene.replace(**changes))) / _work(scene)
+        return _work(whole_passage(scene.replace(**changes))) / _work(scene)
     except Error:
         return 1.0
 

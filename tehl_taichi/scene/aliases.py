@@ -27,7 +27,7 @@ def full_name(key):
     return f"feature.0.{rest}" if section == "feature" and rest and not rest[0].isdigit() else key
 
 
-def settled(given):
+def resolve(given):
     """Resolve changes (words, key, value) to {full key: value}; words: text that the user typed.
 
     Raises SceneError, with the words of both, if two changes contradict each other.
@@ -49,13 +49,13 @@ def settled(given):
 
 def check_swept(changes, keys):
     """Refuse changes {key: value} of all cases that a sweep over these keys overrides or contradicts. Raises SceneError."""
-    settled([*((f"{words(key, value)} in all cases", key, value) for key, value in changes.items()),
+    resolve([*((f"{words(key, value)} in all cases", key, value) for key, value in changes.items()),
              *((f"the sweep over {key}", key, f"swept {key}") for key in keys)])
 
 
-def named(changes):
-    """Resolve changes {key: value} to {full key: value}. Raises SceneError, as :func:`settled`."""
-    return settled([(words(key, value), key, value) for key, value in changes.items()])
+def resolve_named(changes):
+    """Resolve changes {key: value} to {full key: value}. Raises SceneError, as :func:`resolve`."""
+    return resolve([(words(key, value), key, value) for key, value in changes.items()])
 
 
 def words(key, value):

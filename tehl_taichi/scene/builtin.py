@@ -78,7 +78,7 @@ BUILT_INS = {
 }
 
 
-def given(scene_):
+def scene_or_builtin(scene_):
     """Return a Scene unchanged, or load the built-in scene with this name. Raises SceneError."""
     if isinstance(scene_, Scene):
         return scene_

@@ -27,32 +27,32 @@ KEYS = {"nu_40": quantity(0.0, "m2/s", "data sheet: kinematic viscosity at 40 de
 VISCOSITY = ("G0", "S0", "Dz", "Cz")
 
 
-def is_given(values):
+def has_sheet(values):
     """Whether any of these values of an oil belongs to a data sheet."""
     return any(plain(values.get(key, 0)) != 0 for key in KEYS)
 
 
-def follows(values):
+def derived_keys(values):
     """Names of the numbers that the data sheet in these values determines, () without one."""
-    return () if not is_given(values) else (*VISCOSITY, "rho0") if values.get("rho_15", 0) else VISCOSITY
+    return () if not has_sheet(values) else (*VISCOSITY, "rho0") if values.get("rho_15", 0) else VISCOSITY
 
 
-def completed(oil):
+def derived_values(oil):
     """{key: value} that the data sheet of an oil determines, {} without one. Raises SceneError if it contradicts itself or
     other given numbers.
     """
     values = vars(oil)
-    if not is_given(values):
+    if not has_sheet(values):
         return {}
     _check(oil)
     found = {"rho0": oil.rho_15 / _expansion(oil, 15.0) if oil.rho_15 else oil.rho0}
     found |= _viscosity(oil, found["rho0"])
-    fresh = {key: found[key] for key in follows(values)}
-    check_free({key: values[key] for key in fresh if values[key] != _declared(key).default}, fresh)
+    fresh = {key: found[key] for key in derived_keys(values)}
+    check_agreement({key: values[key] for key in fresh if values[key] != _declared(key).default}, fresh)
     return {**fresh, "source": words(oil, found)} if oil.source in ("", type(oil).source) else fresh
 
 
-def check_free(given, fresh):
+def check_agreement(given, fresh):
     """Refuse numbers {key: value} given beside a sheet that differ from those it determines. Raises SceneError."""
     for key, value in given.items():
         _declared(key).metadata["kind"].check(f"oil.{key}", value)
@@ -64,7 +64,7 @@ def check_free(given, fresh):
                          f"gives {numbers}; omit {', '.join(wrong)}, or the keys of the sheet")
 
 
-def estimated(oil):
+def is_alpha_estimated(oil):
     """Whether alpha of this oil is an estimate."""
     return oil.nu_40 > 0 and not oil.alpha_40
 
@@ -96,7 +96,7 @@ def _check(oil):
     if oil.viscosity != LAW:
         raise SceneError(f"oil.viscosity = {oil.viscosity!r} does not accept a data sheet (oil.nu_40, nu_100); allowed with a "
                          f"data sheet: {LAW}")
-    if estimated(oil) and not mineral_alpha.holds(oil.nu_40, oil.nu_100):
+    if is_alpha_estimated(oil) and not mineral_alpha.holds(oil.nu_40, oil.nu_100):
         m, (low, high) = mineral_alpha.slope(oil.nu_40, oil.nu_100), mineral_alpha.STEEPNESS
         raise SceneError(f"oil.alpha_40 is missing: with oil.nu_40 = {oil.nu_40:g} m2/s and nu_100 = {oil.nu_100:g} m2/s the "
                          f"oil is not like a mineral oil, for which alpha can be estimated (slope {m:.3g} of ASTM D341; "

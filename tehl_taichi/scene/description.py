@@ -25,7 +25,7 @@ from tehl_taichi.scene import (
     zoom_room,
 )
 from tehl_taichi.scene.feature import Feature
-from tehl_taichi.scene.named_steels import completed
+from tehl_taichi.scene.named_steels import with_steel_numbers
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.sections import (
     AUTO,
@@ -51,7 +51,7 @@ from tehl_taichi.values.checks import build, file_name, nearest, number
 from tehl_taichi.values.coded_text import CodedText, Option, options_of
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.quantity import Text
-from tehl_taichi.values.unit_hints import meant
+from tehl_taichi.values.unit_hints import hint
 
 TOP = {"name": Text("name of the scene and its stores", 100),  # the keys above all tables
        "note": Text("free text on one line, stored and shown with the run")}
@@ -132,7 +132,7 @@ class Scene:
             raise SceneError("fatigue.thermal_stress = true needs temperatures: use --thermal, or \"auto\"")
         self._check_pressure()
         oil_range.check(self)
-        object.__setattr__(self, "grid", domain.chosen(self))
+        object.__setattr__(self, "grid", domain.with_chosen_ends(self))
         self._check_motion()
         self._check_path()
         self._check_room()
@@ -243,7 +243,7 @@ class Scene:
             times = (other / value) ** power
             return times >= wider and least <= times * p_H <= MAX_HERTZ
 
-        return meant(value, unit, fits)
+        return hint(value, unit, fits)
 
     def _check_motion(self):
         slow = self.reference
@@ -448,8 +448,8 @@ class Scene:
         ...
         tehl_taichi.errors.SceneError: unknown key nx (did you mean 'grid.nx'?); known: ...
         """
-        changes = aliases.named(changes)
-        changed = Scene.from_dict(overrides.applied(self.to_dict(), changes))
+        changes = aliases.resolve_named(changes)
+        changed = Scene.from_dict(overrides.apply_changes(self.to_dict(), changes))
         overrides.check_effect(changed, changes)
         return changed.with_user_keys(idle_keys.user_keys(self) | changes.keys())
 
@@ -498,7 +498,7 @@ class Scene:
 def _bodies(values):
     if not isinstance(values, dict) or set(values) - {"a", "b"}:
         raise SceneError(f"[bodies] may only hold the tables [bodies.a] and [bodies.b], not {shown(values)}")
-    return {f"body_{key}": build(Body, completed(value), f"bodies.{key}", "bodies") for key, value in values.items()}
+    return {f"body_{key}": build(Body, with_steel_numbers(value), f"bodies.{key}", "bodies") for key, value in values.items()}
 
 
 def _features(values):

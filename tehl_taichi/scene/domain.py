@@ -30,7 +30,7 @@ LITTLE = 2e-3
 ENDS = "x_min", "x_max", "y_max"
 
 
-def chosen(scene):
+def with_chosen_ends(scene):
     """Grid of a scene with a number in place of every "auto"."""
     grid = scene.grid
     automatic = [key for key in ENDS if _auto(getattr(grid, key))]

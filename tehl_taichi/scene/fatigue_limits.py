@@ -21,20 +21,20 @@ def given_limits(values):
     return [key for key in KEYS if plain(values.get(key)) not in (None, 0)]
 
 
-def follows(values):
+def derived_keys(values):
     """Names of the constants that the limits in these values determine, () without limits."""
     return ((), ("endurance",), ("kappa", "endurance"))[len(given_limits(values))]
 
 
-def completed(fatigue):
+def derived_values(fatigue):
     """{key: value} that the limits of a section [fatigue] determine, and their source unless the user gave one; {} without
     limits. Raises SceneError if the criterion does not fit such a material.
     """
-    if not follows(vars(fatigue)):
+    if not derived_keys(vars(fatigue)):
         return {}
     found = dict(zip(("kappa", "endurance"), _constants(fatigue)))
     own = {} if fatigue.source not in ("", type(fatigue).source) else {"source": words(fatigue, found["kappa"])}
-    return {key: found[key] for key in follows(vars(fatigue))} | own
+    return {key: found[key] for key in derived_keys(vars(fatigue))} | own
 
 
 def _constants(fatigue):
@@ -46,7 +46,7 @@ def _constants(fatigue):
     return fatigue.kappa, in_one(torsion or bending, fatigue.kappa)
 
 
-def check_free(given, fatigue):
+def check_agreement(given, fatigue):
     """Refuse constants {key: value} given beside limits that differ from those they determine. Raises SceneError."""
     for key, value in given.items():
         number(f"fatigue.{key}", value)
@@ -68,13 +68,13 @@ def words(fatigue, kappa=None):
     return f"{FROM}s {' and '.join(limits)}" if limits else ""
 
 
-def changed(table, new):
+def clear_replaced(table, new):
     """Remove from the table of a section all keys that new values {key: value} replace; None marks derived values."""
     if "endurance" in new and not given_limits(new):
         table.update(dict.fromkeys(KEYS, 0.0))
     if "kappa" in new and len(given_limits(new)) == 1:
         table.update(dict.fromkeys(set(KEYS) - set(given_limits(new)), 0.0))
     if {"kappa", "endurance", "criterion", *KEYS} & new.keys():
-        table.update(dict.fromkeys(follows({**table, **new})))
+        table.update(dict.fromkeys(derived_keys({**table, **new})))
         if text_of(table.get("source")).startswith(FROM):
             del table["source"]

@@ -3,29 +3,29 @@
 import math
 
 
-def passing(scene):
+def feature_word(scene):
     """"scan" or "feature"; scene: None if it is unknown."""
     return "scan" if scene and scene.features and scene.features[0].kind.measured else "feature"
 
 
-def where(scene):
+def position_word(scene):
     """Text for the point of a feature whose position is given: for a scan, which may be as long as the contact, its centre."""
-    return "scan centre" if passing(scene) == "scan" else "feature"
+    return "scan centre" if feature_word(scene) == "scan" else "feature"
 
 
-def between(low, high):
+def range_words(low, high):
     """Text such as 'from -0.5 a up to 1 a': positions (a) between which moments count; "" if all do."""
     return " ".join(f"{word} {x:g} a" for word, x in (("from", low), ("up to", high)) if math.isfinite(x))
 
 
 def from_centre(scene, carries=True):
     """Title of an axis along a surface; carries: this surface carries the feature, whose centre is then fixed on the axis."""
-    return f"x from the {passing(scene)}'s centre{'' if carries else ' at X = 0'} (µm)"
+    return f"x from the {feature_word(scene)}'s centre{'' if carries else ' at X = 0'} (µm)"
 
 
-def position(scene):
+def position_title(scene):
     """Title of an axis of feature positions."""
-    return f"position of the {where(scene)} x / a"
+    return f"position of the {position_word(scene)} x / a"
 
 
 def carriers(scene):

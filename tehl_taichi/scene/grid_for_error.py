@@ -51,7 +51,8 @@ def _seeing_maps(description, nx, ny):
     """This grid, or the first with 2, 4, ... times its columns and rows that resolves the measured maps; if no grid of up to
     MOST columns does, this one, with the scene's warnings.
     """
-    return refinement.first(description.replace(**{"grid.nx": nx, "grid.ny": ny}), map_warnings.carried, MOST) or (nx, ny)
+    start = description.replace(**{"grid.nx": nx, "grid.ny": ny})
+    return refinement.first_grid(start, map_warnings.resolves_maps, MOST) or (nx, ny)
 
 
 @functools.cache

@@ -17,18 +17,18 @@ COLUMNS, ROWS = (128, 64), (32, 16)  # (least, multiple) of a grid that is chose
 KEYS = "grid.nx", "grid.ny", "zoom.factor"
 
 
-def is_open(scene, changes=()):
+def is_grid_open(scene, changes=()):
     """Whether neither the scene nor changes of it (full keys) set the grid."""
     return not {key for key in {*idle_keys.user_keys(scene), *changes} if key in KEYS}
 
 
-def fitting(base, keys):
-    """Grid for `base` with changes of these full keys: see :func:`chosen`."""
+def choose_for_changes(base, keys):
+    """Grid for `base` with changes of these full keys: see :func:`choose_grid`."""
     steady = {key: value for key, value in keys.items() if not key.startswith("time.")} | {"time.steady_only": True}
-    return chosen(base.replace(**steady))
+    return choose_grid(base.replace(**steady))
 
 
-def chosen(scene):
+def choose_grid(scene):
     """Choose a grid: ({full key: value}, text about them).
 
     ({}, "") if the present grid resolves every feature, or if every sufficient grid takes more than WORK. Only the contact of
@@ -38,11 +38,11 @@ def chosen(scene):
     if all(sight.cells >= ENOUGH for sight in sights):
         return {}, ""
     ways = ((aim, factor) for aim in AIMS for factor in FACTORS)
-    found = (_way(scene, sights, aim, factor) for aim, factor in ways)
+    found = (_grid_and_window(scene, sights, aim, factor) for aim, factor in ways)
     return next((changes for changes in found if changes), ({}, ""))
 
 
-def _way(scene, sights, aim, factor):
+def _grid_and_window(scene, sights, aim, factor):
     """(changes, text) of a grid with `aim` cells per length in a window `factor` times as fine; None if it takes more than
     WORK, or if the window does not fit.
     """
@@ -51,7 +51,7 @@ def _way(scene, sights, aim, factor):
     widest = max(scene.grid.nx, _count(scene, sights, "nx", cells, COLUMNS))
     for nx in (widest, _count(scene, sights, "nx", cells, COLUMNS)):
         changes = {"grid.nx": nx, "grid.ny": ny, **({"zoom.factor": factor} if factor else {})}
-        work = _windowed(scene, factor) * _work(nx, ny) / _work(scene.grid.nx, scene.grid.ny)
+        work = _window_work(scene, factor) * _work(nx, ny) / _work(scene.grid.nx, scene.grid.ny)
         if work <= WORK and _has_room(scene, changes):
             return changes, _words(scene, sights, changes, work)
     return None
@@ -64,7 +64,7 @@ def _count(scene, sights, key, cells, least):
     return int(-(-needed // multiple)) * multiple
 
 
-def _windowed(scene, factor):
+def _window_work(scene, factor):
     """Work of a run with a window, relative to one without."""
     s, g = Scales.of(scene), scene.grid
     domain = (g.x_max - g.x_min) / 2, g.y_max * s.b / s.a

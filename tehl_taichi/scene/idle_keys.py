@@ -28,7 +28,7 @@ from tehl_taichi.values.quantity import kinds
 MOES = ("oil.eta0", "oil.alpha")  # numbers of the oil that a Moes pair uses
 LABELS = ("oil.name", "oil.source", "fatigue.source", "fatigue.limit_of", "fatigue.table", "fatigue.table_b",
           "bodies.a.material", "bodies.b.material")  # nothing follows from them
-FOLLOW = {"oil": data_sheet.follows, "fatigue": fatigue_limits.follows}  # names of the numbers that others of a part give
+FOLLOW = {"oil": data_sheet.derived_keys, "fatigue": fatigue_limits.derived_keys}  # functions: numbers that other keys give
 PARTS = (0.0, 0.1, 0.5, 1.0, 2.0)  # of the Hertz pressure, at which laws are asked
 WARMER = (0.0, 20.0, 80.0)  # K above the inlet, of a film with temperatures
 NUDGE = 0.01  # of a number, by which it is changed to see whether a law takes it
@@ -36,7 +36,7 @@ NUDGE = 0.01  # of a number, by which it is changed to see whether a law takes i
 
 def idle(scene):
     """{full key: reason} of all keys without effect in this scene."""
-    return {**resting(scene), **idle_warnings(scene)}
+    return {**reasons_of_left_out(scene), **idle_warnings(scene)}
 
 
 def idle_warnings(scene):
@@ -44,7 +44,7 @@ def idle_warnings(scene):
     return dict([*_overruled(scene), *_other_laws(scene), *_other_shapes(scene)])
 
 
-def resting(scene):
+def reasons_of_left_out(scene):
     """Reasons for keys that belong to parts this scene leaves out."""
     return dict(found for rule in RULES for found in rule(scene))
 
@@ -61,7 +61,7 @@ def doubts(scene):
     beside = {"time.steady_only", *["grid.ny"] * ("grid.nx" in own)}  # says what is so; --grid gives both
     beside |= {"time.steps"} if scene.time.steps <= 0 else set()  # all of none, none
     for key in sorted(own & found.keys() - beside):
-        yield f"{shown(key, scene)} has no effect here: {found[key]}"
+        yield f"{short_key(key, scene)} has no effect here: {found[key]}"
     yield from (f"rheology.{key} has no effect on the film: the law {scene.rheology.law!r} does not use it; it only "
                 "limits the friction of solid contact" for key in BOUNDARY.numbers
                 if f"rheology.{key}" in own - found.keys() and _only_solid(scene, key))
@@ -92,7 +92,7 @@ def _usual(scene, name, part):
         yield key, None if key in follow else brought.get(key, getattr(type(part), key))
 
 
-def shown(key, scene):
+def short_key(key, scene):
     """Full key as people write it: without the number if there is only one feature."""
     return key.replace("feature.0.", "feature.") if len(scene.features) == 1 else key
 
@@ -148,7 +148,7 @@ def _changes(function, values, key):
 def _oil(scene):
     """Numbers that no law uses at the temperature of an isothermal film, and `expansion` if it makes no difference."""
     laws = _laws(scene)
-    now, sheet = laws(scene.oil), data_sheet.follows(vars(scene.oil))
+    now, sheet = laws(scene.oil), data_sheet.derived_keys(vars(scene.oil))
     for key in declared({law.name: law for law in scene.oil.laws}):
         used = f"oil.{key}" in MOES and scene.contact.moes_M > 0 or key in (*sheet, *["rho0"] * bool(sheet))
         if not used and not _changes(laws, scene.oil, key):
@@ -188,11 +188,11 @@ def _why_not_heat(scene):
 
 def _temperature(scene):
     laws, o = _laws(scene), scene.operation
-    if scene.isothermal and np.array_equal(laws(scene.oil), _laws(_warmer(scene))(scene.oil)):
+    if scene.isothermal and np.array_equal(laws(scene.oil), _laws(_at_other_inlet(scene))(scene.oil)):
         yield "operation.temperature", f"the oil {scene.oil.name} does not depend on it (isothermal, {o.temperature:g} deg C)"
 
 
-def _warmer(scene):
+def _at_other_inlet(scene):
     """The scene at another inlet temperature, with the attributes that :func:`_laws` uses."""
     return SimpleNamespace(contact=scene.contact, load=scene.load, body_a=scene.body_a, body_b=scene.body_b, isothermal=True,
                            keeps_expansion=scene.keeps_expansion, operation=SimpleNamespace(

@@ -24,9 +24,9 @@ def from_values(values):
     """
     if not isinstance(values, dict):
         return build(Oil, values, "oil")
-    name = values.get("name", data_sheet.NAME if data_sheet.is_given(values) else Oil.name)
+    name = values.get("name", data_sheet.NAME if data_sheet.has_sheet(values) else Oil.name)
     known = dataclasses.asdict(OILS[name]) if isinstance(name, str) and name in OILS else {}
-    if data_sheet.is_given({**known, **values}):
+    if data_sheet.has_sheet({**known, **values}):
         return _from_sheet(name, known, values)
     if known:
         return build(Oil, {**known, **values}, "oil")
@@ -36,15 +36,15 @@ def from_values(values):
 
 def _from_sheet(name, known, values):
     """Oil from a data sheet. None marks a number that follows from it; a given number must agree with it."""
-    if known and not data_sheet.is_given(known):
+    if known and not data_sheet.has_sheet(known):
         raise SceneError(f"oil.name = {name!r} has its own viscosity and accepts no data sheet (oil.nu_40, nu_100); omit the "
                          "name, or choose a new one")
     checks.text("oil.name", name, 100, empty=False)
-    changed = {"source": ""} if data_sheet.is_given(values) else {}  # of a known oil: it is another one
+    changed = {"source": ""} if data_sheet.has_sheet(values) else {}  # of a known oil: it is another one
     merged = {**known, **changed, "name": name, **values}
-    free = data_sheet.follows(merged)
+    free = data_sheet.derived_keys(merged)
     oil = build(Oil, {key: value for key, value in merged.items() if key not in free}, "oil")
-    data_sheet.check_free({key: plain(values[key]) for key in free if values.get(key) is not None}, vars(oil))
+    data_sheet.check_agreement({key: plain(values[key]) for key in free if values.get(key) is not None}, vars(oil))
     return oil
 
 

@@ -6,7 +6,7 @@ from tehl_taichi.values.registry import collect
 STEELS = collect(steels, steels.Steel)
 
 
-def completed(values):
+def with_steel_numbers(values):
     """Table of a body, completed with the numbers of the steel that it names."""
     name = values.get("material") if isinstance(values, dict) else None
     return {**STEELS[name].numbers, **values} if isinstance(name, str) and name in STEELS else values

@@ -49,7 +49,7 @@ class Oil(_OIL):
         for key in self.law_numbers:
             if getattr(self, key) == ():
                 raise kinds(Oil)[key].refusal(f"oil.{key}", ())
-        for key, value in data_sheet.completed(self).items():
+        for key, value in data_sheet.derived_values(self).items():
             object.__setattr__(self, key, value)
 
     @property

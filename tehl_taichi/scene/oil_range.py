@@ -63,7 +63,7 @@ def _known(oils):
 
 def _estimate(oil):
     """Warning about an estimated alpha."""
-    if data_sheet.estimated(oil):
+    if data_sheet.is_alpha_estimated(oil):
         alpha = data_sheet.alpha_40(oil.nu_40, oil.rho0, oil.Dz)
         yield (f"oil.alpha_40 is not given: alpha at 40 deg C is estimated as {alpha * 1e9:.3g} 1/GPa, which holds within "
                f"{mineral_alpha.WITHIN * 100:g} % for mineral oils of a handbook (8 % of the film); the alpha of a PAO may be "
@@ -77,7 +77,7 @@ def _shear(scene):
     oil, kept = scene.oil, scene.rheology
     if oil.name in OILS or kept != type(kept)() or not kept.thins or scene.operation.u_s == 0:
         return
-    what = "its data sheet has no traction data" if data_sheet.is_given(vars(oil)) else "its numbers do not include traction"
+    what = "its data sheet has no traction data" if data_sheet.has_sheet(vars(oil)) else "its numbers do not include traction"
     numbers = ", ".join(f"{key} = {getattr(kept, key):g} {number.metadata['kind'].unit}".strip(" -")
                         for key, number in rheology.LAWS[kept.law].numbers.items())
     yield (f"the shear law of the base scene is used for oil.name = {oil.name}, {what}: rheology.law = {kept.law}, {numbers}. "

@@ -20,7 +20,7 @@ BODIES = ("bodies.a", "bodies.b")
 NESTED, TOP = (*TABLES, *BODIES), (*TABLES, "feature", "name", "note")
 
 
-def applied(data, changes):
+def apply_changes(data, changes):
     """Apply changes {full key: value} to `data` in place; returns it. Keys that they replace are removed. Raises SceneError.
 
     data: a scene as nested dictionary, which may lack sections and keys. Values of a wrong type are left for the checks of
@@ -32,16 +32,16 @@ def applied(data, changes):
     _name_oil(data, changes)
     _read_sheet(_table(data, "oil"), changes)
     _name_steels(data, changes)
-    fatigue_limits.changed(_table(data, "fatigue"), _of("fatigue", changes))
+    fatigue_limits.clear_replaced(_table(data, "fatigue"), _of("fatigue", changes))
     for key in sorted(changes, key=lambda key: key.count(".")):  # whole tables before single values
         _assign(data, key, changes[key])
     return data
 
 
-def merged(base, data):
+def merge(base, data):
     """Apply the tables of a scene file as changes to `base` (all values of a scene as nested dictionary). Raises SceneError."""
     known = {key: value for key, value in data.items() if key in TOP}
-    return {**applied(base, dict(_as_changes(known))), **{key: data[key] for key in data.keys() - known.keys()}}
+    return {**apply_changes(base, dict(_as_changes(known))), **{key: data[key] for key in data.keys() - known.keys()}}
 
 
 def _as_changes(tables, above=""):
@@ -57,7 +57,7 @@ def _as_changes(tables, above=""):
 
 def _brings_its_numbers(key, table):
     if key == "oil":
-        return "name" in table or data_sheet.is_given(table)
+        return "name" in table or data_sheet.has_sheet(table)
     return key in BODIES and isinstance(table.get("material"), str) and table["material"] != ""
 
 
@@ -74,7 +74,7 @@ def check_effect(scene, changes):
     strange = idle_keys.idle_warnings(scene)
     for key in changes:
         if key in strange:
-            raise SceneError(f"{aliases.words(idle_keys.shown(key, scene), changes[key])} has no effect: {strange[key]}")
+            raise SceneError(f"{aliases.words(idle_keys.short_key(key, scene), changes[key])} has no effect: {strange[key]}")
 
 
 def _clear(data, changes):
@@ -121,10 +121,10 @@ def _name_oil(data, changes):
         data["oil"] = dataclasses.asdict(oils.OILS[name])
     elif "oil.name" in changes and name != plain(oil.get("name")):
         new = _of("oil", changes)
-        if not data_sheet.is_given(new):
+        if not data_sheet.has_sheet(new):
             oils.check_new(name, new)
             oil.update(dict.fromkeys(data_sheet.KEYS, 0.0))
-        oil["source"] = "" if data_sheet.is_given(new) else oils.NO_SOURCE
+        oil["source"] = "" if data_sheet.has_sheet(new) else oils.NO_SOURCE
 
 
 def _of(section, changes):
@@ -137,12 +137,12 @@ def _read_sheet(oil, changes):
     """
     new, source = _of("oil", changes), text_of(oil.get("source"))
     sheet = {**{key: oil.get(key, 0.0) for key in data_sheet.KEYS}, **new}
-    if data_sheet.is_given(sheet) and not data_sheet.is_given(oil):
+    if data_sheet.has_sheet(sheet) and not data_sheet.has_sheet(oil):
         oil.update(name=changes.get("oil.name", data_sheet.NAME), viscosity=data_sheet.LAW, source="")
     elif data_sheet.KEYS.keys() & new.keys() and (source.startswith(data_sheet.FROM) or oil.get("name") in tuple(oils.OILS)):
-        oil["source"] = "" if data_sheet.is_given(sheet) else oils.NO_SOURCE
+        oil["source"] = "" if data_sheet.has_sheet(sheet) else oils.NO_SOURCE
     if new:
-        oil.update(dict.fromkeys(data_sheet.follows(sheet)))
+        oil.update(dict.fromkeys(data_sheet.derived_keys(sheet)))
 
 
 def _name_steels(data, changes):

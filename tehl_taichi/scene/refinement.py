@@ -6,19 +6,19 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.values.coded_text import Option, grid_option
 
 
-def doubled(scene):
+def doubled_grid(scene):
     """Scene on the grid with twice the cells in each direction."""
     return scene.replace(**{"grid.nx": 2 * scene.grid.nx, "grid.ny": 2 * scene.grid.ny})
 
 
-def first(scene, enough, most):
+def first_grid(scene, enough, most):
     """(nx, ny) of the first grid with 1, 2, 4, ... times the cells for which enough(scene) holds; None if no grid of up to
     `most` columns does.
     """
     while not enough(scene):
         if 2 * scene.grid.nx > most:
             return None
-        scene = doubled(scene)
+        scene = doubled_grid(scene)
     return scene.grid.nx, scene.grid.ny
 
 
@@ -28,7 +28,7 @@ def finer_grid_option(scene):
     return _with_work(grid_option(2 * scene.grid.nx, 2 * scene.grid.ny), work)
 
 
-def along(scene):
+def finer_along_option(scene):
     """Text such as '--grid 512x64 (4 times the work)': finer along x only, which suffices for an exit (docs/exit.md)."""
     return _with_work(grid_option(2 * scene.grid.nx, scene.grid.ny), 2 ** (1 + scene.transient))
 

@@ -11,7 +11,7 @@ LINE, POINT = 0.56, 0.62  # largest von Mises stress under a smooth contact over
 DEEP = 0.7, 0.48  # a: where it is
 
 
-def flowing(scene):
+def yielding_surfaces(scene):
     """Surfaces whose steel may yield during run-in: those that move and whose body has its own yield stress."""
     return tuple(s for s, rests in zip(scene.surfaces, scene.at_rest) if not rests and has_yield_stress(scene, s))
 
@@ -26,7 +26,7 @@ def elastic_bodies(scene):
     """{name: reason} of bodies that stay elastic in a scene with run-in."""
     if not scene.runs_in:
         return {}
-    flow = {surface.name for surface in flowing(scene)}
+    flow = {surface.name for surface in yielding_surfaces(scene)}
     return {s.name: "at rest" if rests else "it has no yield stress" for s, rests in zip(scene.surfaces, scene.at_rest)
             if s.name not in flow}
 
@@ -36,12 +36,12 @@ def check(scene):
     count = scene.time.run_in
     if not count or not scene.transient:
         return
-    if not flowing(scene):
+    if not yielding_surfaces(scene):
         raise SceneError(f"time.run_in = {count} needs the yield stress of a body that moves: set bodies.a.yield_stress or "
                          "bodies.b.yield_stress, in Pa (2.2e9 is that of hardened bearing steel)")
     if cut_at(scene) is not None and scene.time.steps:  # 0: the steady start alone, `tehl resume` does the rest
         raise SceneError(f"time.run_in = {count} needs whole passages: omit time.steps and time.x_end")
-    for surface in flowing(scene):
+    for surface in yielding_surfaces(scene):
         _check_track(scene, surface)
 
 

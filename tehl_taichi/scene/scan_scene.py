@@ -80,20 +80,20 @@ def new(path, base, scan, unit="", pixel=0.0, pixel_y=0.0, lay=""):
     scene_file.check_new(path)
     table = height_map.table_of(scan)
     _check_options(scan, height_map.is_profile(table.values), pixel_y, lay)
-    unit, pixel = unit or table.stated.unit, pixel or stated_keys.usable(table.stated.x)
+    unit, pixel = unit or table.stated.unit, pixel or stated_keys.likely_distance(table.stated.x)
     text = _text(path, scene(base), base, scan, table, unit, pixel, pixel_y, lay or "transverse")
     refused = _refusal(path, text)
     user_files.text(path, text)
     return _read(table), [key for key, value in (("unit", unit), ("pixel", pixel)) if not value], refused
 
 
-def scanned(scan, unit="", pixel=0.0):
+def scan_keys(scan, unit="", pixel=0.0):
     """Keys of a feature with the heights in the file `scan`: form removed, faded out at the rim.
 
     Values that are not given are taken from the file. Raises SceneError.
     """
     table = height_map.table_of(Path(scan))
-    pixel = pixel or stated_keys.usable(table.stated.x)
+    pixel = pixel or stated_keys.likely_distance(table.stated.x)
     return dict(shape="profile" if height_map.is_profile(table.values) else "map", file=str(scan), pixel=pixel, level="form",
                 unit=unit or table.stated.unit, taper=_taper(table.values.shape, pixel, pixel))
 
@@ -120,7 +120,7 @@ def _read(table):
     """Description of the heights that were read."""
     rows, columns = table.values.shape
     found = f"{rows} rows of {columns} points" if rows > 1 else f"a line profile of {columns} points"
-    steps = [f"{step * 1e6:.4g} um" for step in map(stated_keys.usable, (table.stated.x, table.stated.y)) if step]
+    steps = [f"{step * 1e6:.4g} um" for step in map(stated_keys.likely_distance, (table.stated.x, table.stated.y)) if step]
     unit = [f"heights in {table.stated.unit}"] if table.stated.unit else []
     stated = unit + ([f"points {' x '.join(dict.fromkeys(steps))} apart"] if steps else [])
     return ", ".join([found, *filter(None, [table.skipped]), *([f"{', '.join(stated)} as the file says"] if stated else []),

@@ -65,11 +65,11 @@ def with_folder(data, folder):
 
 def from_data(data, name, changes=()):
     """Scene from a parsed file with changes {key: value}, applied before all checks. Raises SceneError."""
-    base, changes, data = data.pop("base", None), aliases.named(dict(changes)), in_units(data)
+    base, changes, data = data.pop("base", None), aliases.resolve_named(dict(changes)), in_units(data)
     own = _tables(data)
     u_m = data["operation"].get("u_m") if isinstance(data.get("operation"), dict) else None
     described = _spelled_out(_on_base(base, {"name": name, **data}))
-    found = Scene.from_dict(overrides.applied(described, changes))
+    found = Scene.from_dict(overrides.apply_changes(described, changes))
     overrides.check_effect(found, changes)
     if not changes.keys() & set(aliases.LOADS):
         _check_speed(found, u_m)
@@ -89,7 +89,7 @@ def _on_base(base, data):
     if base is None:
         return {"feature": [], **data}
     text("base", base)
-    return overrides.merged(scene(base).to_dict(), data)
+    return overrides.merge(scene(base).to_dict(), data)
 
 
 def _spelled_out(data):
@@ -100,7 +100,7 @@ def _spelled_out(data):
         if key in data:
             data[key] = _every_number(make, data[key])
     if isinstance(data.get("bodies"), dict):
-        data["bodies"] = {which: named_steels.completed(body) for which, body in data["bodies"].items()}
+        data["bodies"] = {which: named_steels.with_steel_numbers(body) for which, body in data["bodies"].items()}
     return data
 
 

@@ -17,7 +17,7 @@ from tehl_taichi.scene import (
 )
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.values.coded_text import Option
-from tehl_taichi.values.coded_warning import coded_warning, once, with_data
+from tehl_taichi.values.coded_warning import coded_warning, unique, with_data
 from tehl_taichi.values.quantity import Number
 
 
@@ -28,7 +28,7 @@ def warnings(scene):
 
 def preview(scene):
     """Lines about its features, printed before a run, each once."""
-    return once([*(line for feature in scene.features for line in feature.kind.preview(feature, scene)), *_roughness(scene)])
+    return unique([*(line for feature in scene.features for line in feature.kind.preview(feature, scene)), *_roughness(scene)])
 
 
 def _roughness(scene):
@@ -52,7 +52,7 @@ def cut_passage(scene):
     """
     end = timeline.cut_at(scene)
     if end is not None and scene.time.steps != 0:
-        whole = timeline.uncut(scene).path[1]
+        whole = timeline.whole_passage(scene).path[1]
         option = Option("; `tehl resume STORE` continues", "")
         yield with_data(f"passage cut at {end:.2f} a: its extremes and fatigue cover only a part; the whole passage ends at "
                         f"{whole:.2f} a{option}", option, end_a=end, whole_a=whole)

@@ -20,7 +20,7 @@ from tehl_taichi.scene.strength.profiles import WORDS as PROFILES
 from tehl_taichi.values.checks import build
 from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.quantity import AUTO, check, choice, count, count_of, documented, quantities, quantity, switch, text
-from tehl_taichi.values.unit_hints import meant
+from tehl_taichi.values.unit_hints import hint
 
 LEAST_RESIDUAL, LARGEST_RESIDUAL = 1e5, 1e10  # Pa, in size: what is smaller does nothing, and was meant in MPa
 ROWS = 50000  # letters of a table of strength
@@ -83,7 +83,7 @@ class Contact:
                              f"(radius_x = {self.radius_x:g} m){self._radius_meant()}")
 
     def _radius_meant(self):
-        return meant(self.radius_y, "m", lambda other: 0.02 <= other / self.radius_x <= 50, self.radius_x)
+        return hint(self.radius_y, "m", lambda other: 0.02 <= other / self.radius_x <= 50, self.radius_x)
 
 
 @documented
@@ -289,11 +289,11 @@ class Fatigue:
 
     def _follow_limits(self):
         """Set the constants that the limits determine; refuse given constants that differ from these and the defaults."""
-        found = fatigue_limits.completed(self)
-        given = {key: getattr(self, key) for key in fatigue_limits.follows(vars(self))}
+        found = fatigue_limits.derived_values(self)
+        given = {key: getattr(self, key) for key in fatigue_limits.derived_keys(vars(self))}
         for key, value in found.items():
             object.__setattr__(self, key, value)
-        fatigue_limits.check_free({key: value for key, value in given.items() if value != getattr(type(self), key)}, self)
+        fatigue_limits.check_agreement({key: value for key, value in given.items() if value != getattr(type(self), key)}, self)
         if found:
             check(self, "fatigue")
 
@@ -303,9 +303,9 @@ class Fatigue:
 
         None marks a derived constant. Raises SceneError.
         """
-        free = fatigue_limits.follows(values) if isinstance(values, dict) else ()
+        free = fatigue_limits.derived_keys(values) if isinstance(values, dict) else ()
         made = build(cls, {key: value for key, value in values.items() if key not in free} if free else values, "fatigue")
-        fatigue_limits.check_free({key: plain(values[key]) for key in free if values.get(key) is not None}, made)
+        fatigue_limits.check_agreement({key: plain(values[key]) for key in free if values.get(key) is not None}, made)
         return made
 
     def table_text(self, surface):

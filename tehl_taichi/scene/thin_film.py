@@ -15,21 +15,21 @@ FINEST = 2048  # columns, that are worth naming
 SMOOTHEST = 10e-9  # m, rms height of polished balls and discs: under thinner films surfaces touch that no grid has
 
 
-def carried(scene):
+def resolved_ratio(scene):
     """Film by formula over the thinnest film that the grid resolves; below 1 the surfaces touch by mistake."""
     g, s = scene.grid, Scales.of(scene)
     gap = hertz.line_gap if s.line else hertz.point_gap
     return thinnest_film(scene) / (CARRIED * gap(1 + (g.x_max - g.x_min) / g.nx) * s.h)
 
 
-def needed(scene, most=FINEST):
+def sufficient_grid(scene, most=FINEST):
     """(nx, ny) of the first grid with 2, 4, ... times the cells that resolves the film, None beyond `most` columns."""
-    return refinement.first(scene, lambda one: carried(one) >= 1, most)
+    return refinement.first_grid(scene, lambda one: resolved_ratio(one) >= 1, most)
 
 
 def warnings(scene):
     """Warning about a film too thin for the grid, or for any surface."""
-    film, thinnest, part = heated_film(scene), thinnest_film(scene), carried(scene)
+    film, thinnest, part = heated_film(scene), thinnest_film(scene), resolved_ratio(scene)
     if film < SMOOTHEST:
         yield (f"the film formula has {film * 1e9:.2g} nm at the centre, less than the roughness of polished steel "
                f"({SMOOTHEST * 1e9:g} nm); real surfaces touch there, but this model is smooth")
@@ -42,7 +42,7 @@ def warnings(scene):
 
 def remedy(scene):
     """Option of the grid that resolves the film."""
-    size = needed(scene)
+    size = sufficient_grid(scene)
     if size:
         grid = grid_option(*size)
         return Option(f"use {grid}", f"use {grid.words}")

@@ -51,29 +51,29 @@ def cut_at(scene):
     if not scene.transient:
         return None
     end = scene.path[0] + total_steps(scene) * step_length(scene)
-    return end if end < clear(scene) - 1e-9 else None
+    return end if end < clear_position(scene) - 1e-9 else None
 
 
-def clear(scene):
+def clear_position(scene):
     """Position (a) of the first feature from which on all features have left the contact."""
     a = Scales.of(scene).a
     return max((LATEST + (f.reach - f.x) / a) / s.pace for s, f in scene.passing)
 
 
-def uncut(scene):
+def whole_passage(scene):
     """Scene with the whole passage: every step, until the features have left the contact."""
-    end = {"time.x_end": math.inf} if scene.transient and scene.path[1] < clear(scene) else {}
+    end = {"time.x_end": math.inf} if scene.transient and scene.path[1] < clear_position(scene) else {}
     return scene.replace(**{"time.steps": ALL, **end})
 
 
 def most_steps(scene):
     """Largest number of time steps of a run of this scene, also if a cut passage is extended to its end."""
-    return total_steps(uncut(scene))
+    return total_steps(whole_passage(scene))
 
 
-def continued(scene, done, more=None):
+def remaining_scene(scene, done, more=None):
     """Scene of a run after `done` steps with the rest of its passage, or with `more` steps; None at its end."""
-    whole = uncut(scene)
+    whole = whole_passage(scene)
     if total_steps(whole) <= done:
         return None
     return whole if more is None or done + more >= total_steps(whole) else whole.replace(**{"time.steps": done + more})

@@ -22,7 +22,7 @@ TABLES = ("", "hertz.", "steady.", "transient.", "fatigue.", "fatigue.below.", "
 STEADY = ("h_c_m", "h_min_m", "p_max_Pa", "error", "unknown")
 
 
-def wrong(attrs, whole):
+def invalid_attribute(attrs, whole):
     """Description of an attribute that no tehl writes in this form, or "". whole: the store is of this version, so no attribute
     may be missing.
     """

@@ -13,18 +13,18 @@ NEEDED = {"step", "P", "H0"}
 
 def write(folder, number, state):
     """Write the state after entry `number`."""
-    with files.aside(folder / f"{number}.npz") as temporary, open(temporary, "xb") as file:
+    with files.replacement(folder / f"{number}.npz") as temporary, open(temporary, "xb") as file:
         np.savez(file, **{key: value for key, value in state.items() if value is not None})
 
 
-def forget(folder, number):
+def remove_others(folder, number):
     """Remove all checkpoints but the one of entry `number`."""
     for other in _numbers(folder):
         if other != number:
             (folder / f"{other}.npz").unlink(missing_ok=True)
 
 
-def last(store, folder, steps, shape):
+def load_last(store, folder, steps, shape):
     """Load the last checkpoint within the first `steps` entries. Returns (entries before it, state).
 
     shape: of its pressure. Raises StoreError.

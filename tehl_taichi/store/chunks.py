@@ -30,8 +30,8 @@ def read(path, dtype, count):
     size = count * np.dtype(dtype).itemsize
     try:
         frame = files.content(path, 1.01 * size + SLACK)
-        if declared(frame) != size:
-            raise ValueError(f"it declares {declared(frame)} bytes, not the {size} of its array")
+        if declared_bytes(frame) != size:
+            raise ValueError(f"it declares {declared_bytes(frame)} bytes, not the {size} of its array")
         return np.frombuffer(zstd.decompress(frame), dtype)
     except FileNotFoundError:
         raise StoreError(f"{path} is missing: the store is damaged") from None
@@ -39,7 +39,7 @@ def read(path, dtype, count):
         raise StoreError(f"{path} is damaged ({getattr(error, 'strerror', error)}); its data are lost") from None
 
 
-def declared(frame):
+def declared_bytes(frame):
     """Number of bytes that a zstd frame declares, None if it declares none."""
     if frame[:4] != MAGIC or len(frame) < 6:
         return None
@@ -48,7 +48,7 @@ def declared(frame):
     return int.from_bytes(frame[begin : begin + size], "little") + 256 * (kind == 1) if size else None
 
 
-def packed(values, dtype):
+def compressed(values, dtype):
     """Compressed content of a chunk file. Zarr itself needs 5 ms for it, times 24 arrays per step."""
     return zstd.compress(np.ascontiguousarray(values, dtype), LEVEL, True)
 
@@ -83,6 +83,6 @@ def check(folder):
 
 
 def _check_chunk(file, size):
-    found = declared(files.content(file, 1.01 * size + SLACK))
+    found = declared_bytes(files.content(file, 1.01 * size + SLACK))
     if found is not None and found > size:
         raise StoreError(f"{file} is damaged: it declares {found} bytes, and a chunk of its array has {size}")

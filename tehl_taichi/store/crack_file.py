@@ -11,7 +11,7 @@ from tehl_taichi.store.json_values import plain
 DEPTHS = 60  # of the section that is kept
 
 
-def place(store):
+def path_of(store):
     """Path of the crack result of a store."""
     path = store.absolute()
     return path.with_name(f"{path.stem if path.suffix == '.zarr' else path.name}.crack.json")
@@ -19,22 +19,22 @@ def place(store):
 
 def check(store):
     """Check that the crack result of a store can be written. Raises StoreError."""
-    user_files.check(place(store), force=True)
+    user_files.check(path_of(store), force=True)
 
 
-def keep(result, store):
+def save(result, store):
     """Write a :class:`tehl_taichi.crack.analysis.CrackResult` beside its store; replaces an earlier one. Returns the path.
     Raises StoreError.
     """
-    path = place(store.path)
+    path = path_of(store.path)
     content = {"run": store.attrs.get("date"), "summary": result.summary, "drawn": _drawn(result)}
     user_files.text(path, json.dumps({"program": user_files.PROGRAM, **plain(content)}), force=True)
     return path
 
 
-def kept(store):
+def load(store):
     """{"summary", "drawn"} of the stored crack result of a run, or None. Raises StoreError if it is damaged."""
-    path = place(store.path)
+    path = path_of(store.path)
     if not path.is_file():
         return None
     try:

@@ -33,7 +33,7 @@ def is_store(path):
         return False
 
 
-def strangers(path):
+def foreign_names(path):
     """Names in the folder of a store that do not belong to it."""
     return sorted(child.name for child in path.iterdir() if child.name not in OURS and not TEMPORARY.fullmatch(child.name)
                   and (child.is_symlink() or not _of_array(child)))
@@ -65,7 +65,7 @@ def root_of(path):
     if not isinstance(attrs, dict) or "scene" not in attrs or not isinstance(arrays, dict):
         raise StoreError(f"{path} is not a store of tehl run: its {ROOT} describes no scene")
     if any(name != Path(name).name for name in arrays):
-        raise damaged(path, "one of its arrays lies outside")
+        raise damage_error(path, "one of its arrays lies outside")
     return attrs, arrays
 
 
@@ -77,7 +77,7 @@ def scene_of(path, attrs):
             data["time"]["steps"] = -1
         return stored_maps.scene_of(path, data)
     except (SceneError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
-        if fault := lacking(attrs["scene"]):
+        if fault := missing_choice(attrs["scene"]):
             raise StoreError(f"{path} needs {fault}") from None
         fault = error if type(error) in (SceneError, ValueError, StoreError) else "a key is missing or has a wrong value"
         raise StoreError(f"{path} is damaged: the scene in its {ROOT} cannot be read ({fault})") from None
@@ -97,7 +97,7 @@ def _scene_data(text):
     return data
 
 
-def lacking(text):
+def missing_choice(text):
     """Description of a law, criterion or shape of a scene (as JSON) that is not installed here, or ""."""
     try:
         data = json.loads(text)
@@ -125,19 +125,19 @@ def check(path, attrs, arrays, scene, needed):
     """
     steps = attrs.get("steps")
     if not isinstance(steps, int) or isinstance(steps, bool) or steps < 1:
-        raise damaged(path, f"'steps', the number of its entries, is {steps!r}")
+        raise damage_error(path, f"'steps', the number of its entries, is {steps!r}")
     if not isinstance(attrs.get("finished"), bool):
-        raise damaged(path, f"'finished' is {attrs.get('finished')!r}, neither true nor false")
-    if fault := attributes.wrong(attrs, written_by(attrs) is None):
-        raise damaged(path, fault)
+        raise damage_error(path, f"'finished' is {attrs.get('finished')!r}, neither true nor false")
+    if fault := attributes.invalid_attribute(attrs, written_by(attrs) is None):
+        raise damage_error(path, fault)
     grid = {"x": scene.grid.nx + 1, "y": scene.rows + 1}
     for name, dimensions in needed.items():
         needed = [steps] + [grid[key] for key in dimensions]
         shape = _shape(arrays.get(name))
         if shape is None:
-            raise damaged(path, f"it has no array {name!r}")
+            raise damage_error(path, f"it has no array {name!r}")
         if shape[: len(needed)] != needed:
-            raise damaged(path, f"{name} has the shape {shape}, but its scene and entries need {needed}")
+            raise damage_error(path, f"{name} has the shape {shape}, but its scene and entries need {needed}")
 
 
 def _shape(metadata):
@@ -149,13 +149,13 @@ def _shape(metadata):
 
 def attribute(path, attrs, name):
     """JSON table of an attribute that resuming needs. Raises StoreError."""
-    value = optional(attrs, name, {})
+    value = optional_value(attrs, name, {})
     if not value and attrs.get(name) != "{}":
-        raise damaged(path, f"its attribute {name!r} is missing or unreadable")
+        raise damage_error(path, f"its attribute {name!r} is missing or unreadable")
     return value
 
 
-def optional(attrs, name, default):
+def optional_value(attrs, name, default):
     """JSON value of an attribute that only readers use; `default` if it is missing or of another type."""
     try:
         value = json.loads(attrs[name])
@@ -173,7 +173,7 @@ def written_by(attrs):
 
 
 @contextlib.contextmanager
-def blamed_on_newer(path, attrs):
+def newer_version_errors(path, attrs):
     """Context manager: an error while reading a store of a newer version becomes a StoreError that says which version to
     install.
     """
@@ -181,13 +181,13 @@ def blamed_on_newer(path, attrs):
         yield
     except StoreError:
         version = attrs.get("version")
-        if release(version) <= release(__version__):
+        if version_numbers(version) <= version_numbers(__version__):
             raise
         raise StoreError(f"{path} was written by version {version}, this is {__version__}: install {version} or newer"
                          ) from None
 
 
-def release(version):
+def version_numbers(version):
     """Numbers of a version (without development suffixes and trailing zeros), () if it is none."""
     found = re.match(r"\d+(\.\d+)*", version if isinstance(version, str) else "")
     numbers = [int(part) for part in found[0].split(".")] if found else []
@@ -202,6 +202,6 @@ def check_version(path, attrs):
         raise StoreError(f"{path} was {version}: it can be read but not resumed; `tehl run {path} --out NEW` repeats the run")
 
 
-def damaged(path, what):
+def damage_error(path, what):
     """The StoreError about damage `what` of a store."""
     return StoreError(f"{path} is damaged: {what}; `tehl run {path} --out NEW` repeats the run")

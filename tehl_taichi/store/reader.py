@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tehl_taichi.disk.drafts import put_back, unmade
+from tehl_taichi.disk.drafts import put_back, unfinished_error
 from tehl_taichi.disk.locks import holder
 from tehl_taichi.errors import StoreError
 from tehl_taichi.march.step_output import fields_of, names, scalars_of
@@ -14,7 +14,7 @@ from tehl_taichi.scene.timeline import cut_at
 from tehl_taichi.store import chunks, integrity
 from tehl_taichi.store import stand_in as stand_in_scene
 from tehl_taichi.store.layout import OWN
-from tehl_taichi.values.coded_warning import of_lists
+from tehl_taichi.values.coded_warning import warnings_of_lists
 
 
 class Reader:
@@ -26,10 +26,10 @@ class Reader:
     def __init__(self, path, lock=None, stand_in=False):
         self.path, self.lock = Path(path), lock
         self.attrs, self.metadata = integrity.root_of(self.path)
-        with integrity.blamed_on_newer(self.path, self.attrs):
+        with integrity.newer_version_errors(self.path, self.attrs):
             self.scene, self.lacks = (stand_in_scene.scene_of(self.path, self.attrs) if stand_in else
                                       (integrity.scene_of(self.path, self.attrs), ""))
-        known = integrity.optional(self.attrs, "outputs", names())  # to the program that began it
+        known = integrity.optional_value(self.attrs, "outputs", names())  # to the program that began it
         self.stored = {name: field.dtype for name, field in fields_of(self.scene).items() if name in known}
         self.names = [*(name for name in scalars_of(self.scene) if name in known), *OWN]
         self.steps = self.attrs.get("steps")
@@ -45,11 +45,11 @@ class Reader:
     @classmethod
     def _opened(cls, path, lock, stand_in=False):
         put_back(path)
-        if not path.exists() and (why := unmade(path)):
+        if not path.exists() and (why := unfinished_error(path)):
             raise why
         store = cls(path, lock, stand_in)
         needed = {name: ["x", "y"] for name in store.stored} | {name: [] for name in store.names}
-        with integrity.blamed_on_newer(path, store.attrs):
+        with integrity.newer_version_errors(path, store.attrs):
             integrity.check(path, store.attrs, store.metadata, store.scene, needed)
             store.series = {name: store._read_series(name) for name in store.names}
         return store
@@ -84,14 +84,14 @@ class Reader:
     @property
     def summary(self):
         """Summary of a finished run, or {}."""
-        found = integrity.optional(self.attrs, "summary", {})
+        found = integrity.optional_value(self.attrs, "summary", {})
         return {**found, "store": str(self.path)} if found else {}
 
     @property
     def warnings(self):
         """Each :class:`tehl_taichi.values.coded_warning.CodedWarning` of the run if it is finished, else of its scene."""
         names = "warnings", "warning_codes", "warning_data"
-        return of_lists(*(integrity.optional(self.attrs, name, []) for name in names))
+        return warnings_of_lists(*(integrity.optional_value(self.attrs, name, []) for name in names))
 
     def needed(self, name):
         """Table of an attribute that resuming needs. Raises StoreError."""
@@ -99,7 +99,7 @@ class Reader:
 
     def known(self, name):
         """Table of an attribute, {} in stores of versions that have none."""
-        return integrity.optional(self.attrs, name, {})
+        return integrity.optional_value(self.attrs, name, {})
 
     @cached_property
     def x(self):  # opening the group takes 2 ms, and a fatigue search needs every entry

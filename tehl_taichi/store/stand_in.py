@@ -20,7 +20,7 @@ def scene_of(path, attrs):
     try:
         return integrity.scene_of(path, attrs), ""
     except StoreError:
-        if not (fault := integrity.lacking(attrs["scene"])) or fault.partition(" ")[0] not in REPLACED:
+        if not (fault := integrity.missing_choice(attrs["scene"])) or fault.partition(" ")[0] not in REPLACED:
             raise
         found = _with_replaced(path, attrs)
         if found is None:
@@ -33,7 +33,7 @@ def _with_replaced(path, attrs):
     """Scene with the defaults of its sections in place of every missing choice; None if it cannot be read."""
     data = json.loads(attrs["scene"])
     for _ in REPLACED:  # several may be missing
-        key = integrity.lacking(json.dumps(data)).partition(" ")[0]
+        key = integrity.missing_choice(json.dumps(data)).partition(" ")[0]
         if key not in REPLACED:
             break
         _replace(data, key)

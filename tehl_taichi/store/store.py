@@ -106,12 +106,12 @@ class Store(LockedFolder, Reader):
         with self.safely():
             checkpoint.write(self.path / CHECKPOINTS, 1, state)
             self._commit(steps=1)
-            checkpoint.forget(self.path / CHECKPOINTS, 1)
+            checkpoint.remove_others(self.path / CHECKPOINTS, 1)
 
     def _append(self, snapshot, state, shown=True):
         n = self.steps
         for name, dtype in self.stored.items():  # what readers do not see yet needs no care
-            files.write(self._file(name, n), chunks.packed(snapshot.fields[name], "<" + dtype))
+            files.write(self._file(name, n), chunks.compressed(snapshot.fields[name], "<" + dtype))
         values = {**snapshot.scalars, **{name: getattr(snapshot, name) for name in OWN}}
         for name, series in self.series.items():
             series[n] = values[name]
@@ -121,11 +121,11 @@ class Store(LockedFolder, Reader):
         if state or shown:
             self._show()
         if state:
-            checkpoint.forget(self.path / CHECKPOINTS, n + 1)
+            checkpoint.remove_others(self.path / CHECKPOINTS, n + 1)
 
     def _show(self):
         for name, series in self.series.items():
-            files.replace(self.path / name / "c" / "0", chunks.packed(series, "<" + series.dtype.str[1:]))
+            files.replace(self.path / name / "c" / "0", chunks.compressed(series, "<" + series.dtype.str[1:]))
         self._commit(steps=self.steps)
 
     def safely(self):
@@ -142,9 +142,9 @@ class Store(LockedFolder, Reader):
         equal ones). Raises StoreError without a checkpoint.
         """
         shape = self.scene.rows + 1, self.scene.grid.nx + 1
-        number, state = checkpoint.last(self.path, self.path / CHECKPOINTS, self.steps, shape)
+        number, state = checkpoint.load_last(self.path, self.path / CHECKPOINTS, self.steps, shape)
         if int(state["step"]) != self.series["step"][number - 1]:
-            raise integrity.damaged(self.path, "its checkpoint is of another step")
+            raise integrity.damage_error(self.path, "its checkpoint is of another step")
         if number < self.steps:
             with _disk_errors(self.path, f"then use: tehl resume {self.path}"):
                 self._commit(steps=number)
@@ -152,7 +152,7 @@ class Store(LockedFolder, Reader):
 
     def extend(self, scene):
         """Extend a finished run: `scene` differs only in its end; the results are removed."""
-        for name in integrity.optional(self.attrs, "results", []):
+        for name in integrity.optional_value(self.attrs, "results", []):
             self.metadata.pop(name, None)
         self.scene = scene
         self.attrs.pop("summary", None)

@@ -32,7 +32,7 @@ class StoreDraft(Draft):
     def allowed(self, replace):
         self.check_outside()
         if replace and os.path.lexists(self.path):
-            return replaceable(self.path)
+            return lock_to_replace(self.path)
         _check_free(self.path)
         return None
 
@@ -50,7 +50,7 @@ class CaseDraft(StoreDraft):
 
 def removed(path):
     """Remove the store at `path`. Raises StoreError if it is no store or contains other files; Busy."""
-    remove(path, replaceable(path))
+    remove(path, lock_to_replace(path))
 
 
 def _check_free(path):
@@ -75,13 +75,13 @@ def check_room(folder):
         raise Error(f"{folder} has only {free / 1e6:.0f} MB left; a run needs at least {ROOM / 1e6:.0f} MB")
 
 
-def replaceable(path):
+def lock_to_replace(path):
     """Lock the store at `path`, which is to be replaced. Raises StoreError if it may not be replaced."""
     if path.is_symlink():
         raise StoreError(f"{path} is a link, and --force replaces only stores; remove the link or choose another --out")
     if not integrity.is_store(path):
         raise StoreError(f"{path} is not a store of tehl run, and --force replaces only stores; choose another --out")
-    if strangers := integrity.strangers(path):
+    if strangers := integrity.foreign_names(path):
         raise StoreError(f"{path} holds {strangers[0]}, which is not part of a store; move it away, or choose another --out")
     links.refuse(path)
     check_room(path)

@@ -9,7 +9,7 @@ from typing import Union
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.coerce import plain, shown
-from tehl_taichi.values.unit_hints import meant
+from tehl_taichi.values.unit_hints import hint
 
 HUGE = 10**300  # whole numbers beyond it are no floats
 
@@ -27,7 +27,7 @@ def number(where, value, unit="", low=-math.inf, high=math.inf, strict=False, in
         raise SceneError(f"{where} = {value} must be finite{allowed}")
     if not _within(value, low, high, strict, least, infinite) or (isinstance(value, int) and abs(value) > HUGE):
         text = f"{value:g}" if isinstance(value, float) else shown(value)
-        other = meant(value, unit, lambda other: _within(other, low, high, strict, least), usual) if abs(value) <= HUGE else ""
+        other = hint(value, unit, lambda other: _within(other, low, high, strict, least), usual) if abs(value) <= HUGE else ""
         raise SceneError(f"{where} = {text}{' ' * bool(unit)}{unit} is out of range{allowed}{other}")
 
 
@@ -133,12 +133,12 @@ def build(cls, values, section, general=None):
     for key in values:
         if key not in known:
             raise SceneError(f"unknown key {section}.{key_shown(key)}{nearest(key, known)}; known: {', '.join(known)}")
-    with speaking_of(section, general or section):
+    with messages_about(section, general or section):
         return cls(**values)
 
 
 @contextlib.contextmanager
-def speaking_of(section, general):
+def messages_about(section, general):
     """Context manager: messages about `general`.key name `section`.key instead, for a body or feature."""
     try:
         yield

@@ -16,10 +16,11 @@ def with_data(text, *options, **data):
 
 def coded_warning(checks, *args):
     """Warnings of checks {function(*args) -> sentences: code}, each sentence once (equal features give equal sentences)."""
-    return once(CodedWarning(text, code, getattr(text, "data", {})) for check, code in checks.items() for text in check(*args))
+    return unique(CodedWarning(text, code, getattr(text, "data", {}))
+                  for check, code in checks.items() for text in check(*args))
 
 
-def once(sentences):
+def unique(sentences):
     """List of the sentences without repetition."""
     return list(dict.fromkeys(sentences))
 
@@ -36,7 +37,7 @@ def texts(warnings):
     return {name: json.dumps(values) for name, values in lists(warnings).items()}
 
 
-def of_lists(sentences, codes, data):
+def warnings_of_lists(sentences, codes, data):
     """Warnings from such lists; without codes if older versions wrote them."""
     if not len(sentences) == len(codes) == len(data):
         return [CodedWarning(text) for text in sentences]

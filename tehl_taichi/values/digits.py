@@ -7,7 +7,7 @@ SCALES = {"m": ((1e-3, 1e6, "µm"), (1.0, 1e3, "mm")), "Pa": ((1e9, 1e-6, "MPa")
           "m2/s": ((math.inf, 1e6, "mm²/s"),), "1/Pa": ((math.inf, 1e9, "1/GPa"),)}
 
 
-def fitting(unit, size):
+def printed_unit(unit, size):
     """(factor, unit) for numbers of about `size` in the SI unit `unit`: 2e9 Pa are printed in GPa."""
     known = ((factor, shown) for below, factor, shown in SCALES.get(unit, ()) if abs(size) < below)
     return next(known, (1.0, unit))
@@ -31,12 +31,12 @@ def with_error(value, error, unit="", digits=4):
     """Text such as '1.008 ± 0.023 µm': two digits of the error, and the value with as many decimals; `digits` digits of the
     value if the error is not known (None).
     """
-    text, rest, power = parted(value, error, digits)
+    text, rest, power = rounded_parts(value, error, digits)
     both = f"{text} ± {rest}" if rest else text
     return f"{f'({both}){power}' if power and rest else both + power} {unit}".rstrip()
 
 
-def parted(value, error, digits=4):
+def rounded_parts(value, error, digits=4):
     """(value, error, power of ten) as texts for :func:`with_error`; error "": not known."""
     if error is None or not math.isfinite(error) or not math.isfinite(value):
         return f"{value:.{digits}g}", "", ""

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from tehl_taichi.values.digits import fitting, with_error
+from tehl_taichi.values.digits import printed_unit, with_error
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Quantity:
         return None if self.error is None or not self.value else abs(self.error / self.value)
 
     def __str__(self):
-        factor, unit = fitting(self.unit, self.value)
+        factor, unit = printed_unit(self.unit, self.value)
         unit = {"degC": "°C"}.get(unit, unit)
         if self.error is not None:
             return with_error(self.value * factor, self.error * factor, unit)

@@ -62,7 +62,7 @@ def _digest(folder):
     return hashlib.sha256(os.fsencode(folder)).hexdigest()[:8]
 
 
-def of_file(path):
+def use_plugins_of(path):
     """Register the plugins of a scene file (or of the scene that a gear, bearing or study file names) before any registry is
     read.
 
@@ -99,12 +99,12 @@ def use(names, path):
         os.environ[VARIABLE] = os.pathsep.join([*filter(None, [os.environ.get(VARIABLE)]), *map(str, new)])
 
 
-def loaded():
+def loaded_modules():
     """Plugin modules loaded so far."""
     return [module for name, module in sorted(sys.modules.items()) if name.startswith(PREFIX)]
 
 
-def unread():
+def unread_files():
     """Python files directly in a plugin's folder, where none is read."""
     return sorted(path for folder in folders() for path in folder.glob("*.py") if path.name != "__init__.py")
 

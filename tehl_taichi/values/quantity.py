@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from tehl_taichi.values import checks, units
 from tehl_taichi.values.coerce import shown
-from tehl_taichi.values.unit_hints import meant
+from tehl_taichi.values.unit_hints import hint
 
 AUTO = "auto"
 
@@ -60,7 +60,7 @@ class Number(Kind):
         low, high = self.common or (-math.inf, math.inf)
         if low <= value <= high:
             return ""
-        other = meant(value, self.unit, lambda other: low <= other <= high, self.usual)
+        other = hint(value, self.unit, lambda other: low <= other <= high, self.usual)
         return f"{where} = {value:g} {self.unit} is unusual{other}" if other else ""
 
     def taken(self, where, value):

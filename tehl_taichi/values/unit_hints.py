@@ -11,7 +11,7 @@ WRITTEN = {"m": ((-3, "mm"), (-6, "um"), (-9, "nm")), "Pa": ((6, "MPa"), (9, "GP
 KELVIN = 273.15  # of 0 deg C
 
 
-def meant(value, unit, fits, usual=0.0):
+def hint(value, unit, fits, usual=0.0):
     """Text '; did you mean 400e6 Pa (400 MPa)?', or '' if no usual unit makes the value valid.
 
     fits: function of a value in `unit`, whether it is allowed; usual: a value of the usual order (0: unknown), the nearest

@@ -252,12 +252,12 @@ def test_a_run_goes_on_from_the_last_checkpoint_that_counts(tmp_path):
     for number in (2, 3, 5, 11):
         checkpoint.write(tmp_path, number, {"step": number - 1, "P": np.full((3, 4), number), "H0": 0.0})
     for steps, last in ((2, 2), (3, 3), (4, 3), (10, 5), (11, 11)):
-        number, state = checkpoint.last(tmp_path / "s", tmp_path, steps, (3, 4))
+        number, state = checkpoint.load_last(tmp_path / "s", tmp_path, steps, (3, 4))
         assert number == last == state["P"][0, 0] and state["step"] == last - 1
     with pytest.raises(tehl.StoreError, match="damaged or of another grid"):
-        checkpoint.last(tmp_path / "s", tmp_path, 11, (4, 3))
-    checkpoint.forget(tmp_path, 5)
-    assert checkpoint.last(tmp_path / "s", tmp_path, 20, (3, 4))[0] == 5
+        checkpoint.load_last(tmp_path / "s", tmp_path, 11, (4, 3))
+    checkpoint.remove_others(tmp_path, 5)
+    assert checkpoint.load_last(tmp_path / "s", tmp_path, 20, (3, 4))[0] == 5
 
 
 def search(Fi, below, error=None, early=None):

@@ -46,7 +46,7 @@ def test_neither_is_a_case_or_a_position(tmp_path):
     with pytest.raises(StoreError, match="was written by version 0.7.0 .*not mixed"):
         tehl.flank("fzg-c", **words)
     with pytest.raises(StoreError, match="was written by version 0.7.0 .*not mixed"):
-        single_run.completed(tehl.open(store).scene, store)
+        single_run.run_or_resume(tehl.open(store).scene, store)
 
 
 HEADS = ["x_pl_mm", "load_N_per_mm", "R_a_mm", "R_b_mm", "u_a_m_s", "u_b_m_s", "point", "mine"]

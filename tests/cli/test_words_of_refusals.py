@@ -346,10 +346,10 @@ def test_the_summary_of_a_run_is_whole(whole):
     from tehl_taichi.store.reader import Reader
 
     attrs = Reader.open(whole).attrs
-    assert attributes.wrong(attrs, True) == ""
-    assert "'steady' is missing" in attributes.wrong({**attrs, "summary": '{"scene": "gear", "version": "1", "wall_s": 1, '
-                                                      '"compile_s": 1, "steps": 3, "grid": {}, "cells": {}, "hertz": {}, '
-                                                      '"left_out": []}'}, True)
+    assert attributes.invalid_attribute(attrs, True) == ""
+    short = ('{"scene": "gear", "version": "1", "wall_s": 1, "compile_s": 1, "steps": 3, "grid": {}, "cells": {}, "hertz": {}, '
+             '"left_out": []}')
+    assert "'steady' is missing" in attributes.invalid_attribute({**attrs, "summary": short}, True)
 
 
 @pytest.mark.parametrize("key, name", [("rheology.law", "mine"), ("oil.viscosity", "cameron"), ("fatigue.criterion", "ellipse"),
@@ -365,7 +365,8 @@ def test_what_is_not_installed_is_no_damage(tmp_path, key, name):
     found = here("resume", path)
     assert found.returncode == 2 and f"needs {key} = '{name}', which is not installed here; known: " in found.stderr
     assert "damaged" not in found.stderr
-    assert integrity.lacking(json.dumps(data)) and integrity.lacking(json.dumps(tehl.scene("gear").to_dict())) == ""
+    assert integrity.missing_choice(json.dumps(data))
+    assert integrity.missing_choice(json.dumps(tehl.scene("gear").to_dict())) == ""
 
 
 def test_the_plan_of_a_study_with_an_edited_attribute(tmp_path):

@@ -246,15 +246,15 @@ def test_a_crack_in_b_is_one_in_a_with_the_slip_turned(taichi_cpu, surface, mirr
 def test_the_body_is_that_of_the_verdict(taichi_cpu):
     scene = SCENE.replace(**{"thermal.on": False})
     reader, worse = Rolling(scene, 6, 5), {"surface": "b", "Fi_max": 0.9, "below": {"Fi_max": 1.2}}
-    assert body.chosen(scene, reader, "worse").name == assessment.run(scene, reader).summary["surface"]
+    assert body.cracked_surface(scene, reader, "worse").name == assessment.run(scene, reader).summary["surface"]
     reader.summary = {"fatigue": worse, "fatigue_by_surface": {"a": {"Fi_max": 1.1}, "b": worse}}
-    assert body.chosen(scene, reader, "worse").name == "b" and body.chosen(scene, reader, "a").name == "a"
+    assert body.cracked_surface(scene, reader, "worse").name == "b" and body.cracked_surface(scene, reader, "a").name == "a"
     reader.summary = {"fatigue": {"Fi_max": 1.1}}  # of a version that searched body a alone
-    assert body.chosen(scene, reader, "worse").name == "a"
+    assert body.cracked_surface(scene, reader, "worse").name == "a"
     rest = scene.replace(srr=2.0)
-    assert body.chosen(rest, Rolling(rest), "worse").name == "a"
+    assert body.cracked_surface(rest, Rolling(rest), "worse").name == "a"
     with pytest.raises(SceneError, match="surface b is at rest"):
-        body.chosen(rest, reader, "b")
+        body.cracked_surface(rest, reader, "b")
 
 
 def test_sides_of_the_other_body_are_those_of_the_feature_as_it_slides(taichi_cpu):
@@ -275,7 +275,7 @@ def test_oil_flows_with_the_oil_and_the_speed_of_the_scene(rolled):
     np.testing.assert_allclose(np.diff(plane.times[:-1]) * u_a, np.diff(plane.centres[:-1]), rtol=1e-9)
     assert np.log(plane.fluid.viscosity(1e8)) == pytest.approx(ln_eta(SCENE.oil, 1e8, SCENE.operation.temperature))
     path = rolled.sides["entry"].start.x + np.array([0, 20 * MICRO * np.exp(0.8j)])
-    dry, flow, film = (growth.loaded(plane, path, CrackOptions(oil=oil), E_STAR) for oil in ("dry", "flow", "film"))
+    dry, flow, film = (growth.load_crack(plane, path, CrackOptions(oil=oil), E_STAR) for oil in ("dry", "flow", "film"))
     assert flow.missed == 0 and 0 < flow.pressure.max() < film.pressure.max()
     assert dry.K[0].max() * (1 - 1e-9) <= flow.K[0].max() < film.K[0].max()
 
@@ -285,7 +285,7 @@ def test_shallow_closed_cracks_settle_and_hardly_depend_on_the_elements(rolled):
     x = rolled.sides["entry"].start.x
     for degrees in (15, 45, 90, 135, 165):
         path = x + np.array([0, 20 * MICRO * np.exp(1j * np.radians(degrees))])
-        coarse, fine = (growth.loaded(rolled.plane, path, CrackOptions(), E_STAR, count) for count in (12, 48))
+        coarse, fine = (growth.load_crack(rolled.plane, path, CrackOptions(), E_STAR, count) for count in (12, 48))
         assert coarse.missed == fine.missed == 0 and fine.touching.max() > 0.5
         scale = np.ptp(fine.K[1])
         assert coarse.K[0].max() == pytest.approx(fine.K[0].max(), abs=0.01 * scale)

@@ -132,7 +132,7 @@ def test_slip_that_was_stays_when_the_shear_goes():
     values, _, _ = face_friction.with_friction(faces, steps, 0.3)
     K_II = faces.intensities(values)[1]
     assert K_II[2] == pytest.approx(K_II[1], rel=1e-9)
-    assert faces.intensities(closure.opened(faces, steps)[0])[1][2] == pytest.approx(0.8 / 0.7 * K_II[1], rel=1e-6)
+    assert faces.intensities(closure.frictionless(faces, steps)[0])[1][2] == pytest.approx(0.8 / 0.7 * K_II[1], rel=1e-6)
 
 
 @pytest.mark.parametrize("degrees", [90, 45, 15])
@@ -145,7 +145,7 @@ def test_faces_touch_where_they_would_pass_through_each_other(degrees):
         deep = faces.points.imag / faces.points.imag.max()
         load = np.concatenate([forces(faces, xx=a + b * deep, xz=0.2) for a, b in
                                ((1, 0), (-1, 3), (-1, 1.5), (1, -3), (0.5, -3), (-1, 0), (0.1, -1))], axis=1)
-        values, held = closure.opened(faces, load)
+        values, held = closure.frictionless(faces, load)
         opening = values[: faces.nodes]
         assert opening.min() > -1e-9 * np.abs(values).max() and held.min() >= 0
         assert np.abs(held * opening).max() < 1e-9 * held.max() * opening.max() and (held > 0).any() and opening.max() > 0
@@ -164,7 +164,7 @@ def test_closed_kinks_need_few_elements(mu, error):
         depth = faces.points.imag
         load = np.concatenate([forces(faces, xx=a + b * depth, zz=-0.5, xz=c) for a, b, c in
                                ((-1, 0, 1), (-1, 0, -1), (0.3, -1, 0.5), (-0.5, 0.8, 1), (-2, 1, -0.6))], axis=1)
-        values, held = closure.opened(faces, load) if mu == 0 else face_friction.with_friction(faces, load, mu)[:2]
+        values, held = closure.frictionless(faces, load) if mu == 0 else face_friction.with_friction(faces, load, mu)[:2]
         opening = (faces.contact @ values)[: len(held)]
         assert len(held) == faces.nodes + 2 and opening.min() > -1e-9 * np.abs(values).max()
         assert held.min() >= 0 and np.abs(held * opening).max() < 1e-9 * held.max() * np.abs(values).max()
@@ -179,7 +179,7 @@ def test_bounded_forces_are_found_from_any_first_guess():
         M = rng.standard_normal((18, 18))
         M, gap = M @ M.T + 0.02 * np.eye(18), rng.standard_normal(18)
         low, high = -rng.random(18), np.where(rng.random(18) < 0.5, np.inf, rng.random(18))
-        found = [complementarity.bounded(M, gap, low, high, np.full(18, at))
+        found = [complementarity.solve_bounded(M, gap, low, high, np.full(18, at))
                  for at in (complementarity.LOW, complementarity.FREE)]
         for r, at in found:
             w = gap + M @ r
@@ -230,8 +230,8 @@ def test_pressure_inside_opens_as_much_as_the_same_pull():
 def test_a_matrix_that_is_positive_only_to_rounding_ends():
     """Next to no oil, shut in: its pressure comes out below zero, and without it the faces lack 1e-21 m."""
     M, gap = np.array([[1.0, 1.0], [1.0, 1.0 - 2.0**-53]]), np.array([0.0, -1e-21])
-    r, _ = complementarity.bounded(M, gap, np.zeros(2), np.full(2, np.inf),
-                                   np.array([complementarity.FREE, complementarity.LOW]))
+    r, _ = complementarity.solve_bounded(M, gap, np.zeros(2), np.full(2, np.inf),
+                                         np.array([complementarity.FREE, complementarity.LOW]))
     assert (r >= 0).all() and abs(gap + M @ r).max() <= 1e-20
 
 
@@ -240,9 +240,9 @@ def test_forces_that_mean_the_same_share_the_load():
     M, gap = np.ones((2, 2)), np.array([-1.0, -1.0])
     with pytest.raises(np.linalg.LinAlgError):
         np.linalg.solve(M, -gap)
-    r, at = complementarity.bounded(M, gap, np.zeros(2), np.full(2, np.inf), np.full(2, complementarity.FREE))
+    r, at = complementarity.solve_bounded(M, gap, np.zeros(2), np.full(2, np.inf), np.full(2, complementarity.FREE))
     assert r == pytest.approx([0.5, 0.5], rel=1e-3) and (at == complementarity.FREE).all()
-    against = complementarity.solved(M, np.array([1.0, 2.0]))  # no forces do that: large ones, apart
+    against = complementarity.solve_compliant(M, np.array([1.0, 2.0]))  # no forces do that: large ones, apart
     assert against[1] > 1e9 and against[0] < -1e9
     faces = face_friction._forces(M, gap[:, None], 0.0, np.full(2, face_friction.UP), np.zeros(0))
     assert faces[:, 0] == pytest.approx([0.5, 0.5], rel=1e-3)

@@ -288,7 +288,7 @@ def test_temporary_names_cannot_be_guessed_and_are_tidied(tmp_path):
 
     names = []
     for _ in range(2):
-        with files.aside(tmp_path / "a") as temporary:
+        with files.replacement(tmp_path / "a") as temporary:
             names.append(temporary.name)
             files.write(temporary, b"1")
     assert len(set(names)) == 2 and [path.name for path in tmp_path.iterdir()] == ["a"]
@@ -319,18 +319,19 @@ def put(kind, path, target):
 def test_single_files_and_locks_are_written_to_plain_files_alone(tmp_path, kind):
     """Each writer by itself, without the look at the whole folder before."""
     from tehl_taichi.disk import files
-    from tehl_taichi.disk.locks import Lock, abandoned, holder
+    from tehl_taichi.disk.locks import Lock, holder, is_abandoned
 
     mine, folder = tmp_path / "thesis", tmp_path / "folder"
     mine.write_text("four years of work\n")
     folder.mkdir()
     put(kind, folder / ".lock", mine)
     before = snapshot(tmp_path)
-    for attempt in (lambda: files.append(folder / ".lock", b"x"), lambda: files.cut(folder / ".lock", 0), lambda: Lock(folder)):
+    for attempt in (lambda: files.append(folder / ".lock", b"x"), lambda: files.truncate(folder / ".lock", 0),
+                    lambda: Lock(folder)):
         with pytest.raises(OSError):
             attempt()
         assert snapshot(tmp_path) == before
-    assert holder(folder) is None and not abandoned(folder)
+    assert holder(folder) is None and not is_abandoned(folder)
     if kind != "folder":
         files.write(folder / ".lock", b"new")  # takes the name, not what has it
         assert (folder / ".lock").read_bytes() == b"new" and not (folder / ".lock").is_symlink()

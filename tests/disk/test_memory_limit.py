@@ -40,9 +40,9 @@ def watched():
 
 @pytest.mark.parametrize("count", [0, 1, 100, 255, 256, 300, 65791, 65792, 70000])
 def test_the_size_of_a_frame_is_read_as_it_was_written(count):
-    assert chunks.declared(chunks.packed(np.zeros(count, "u1"), "u1")) == count or count == 0
-    assert chunks.declared(zstd.compress(bytes(range(256)) * (count // 256 + 1), 3)) == 256 * (count // 256 + 1)
-    assert chunks.declared(b"no frame of zstd at all") is None
+    assert chunks.declared_bytes(chunks.compressed(np.zeros(count, "u1"), "u1")) == count or count == 0
+    assert chunks.declared_bytes(zstd.compress(bytes(range(256)) * (count // 256 + 1), 3)) == 256 * (count // 256 + 1)
+    assert chunks.declared_bytes(b"no frame of zstd at all") is None
 
 
 @pytest.mark.parametrize("name", ["pressure/c.0.0.0", "h_min_m/c/0", "step/c/0", "x/c/0"])
@@ -175,8 +175,8 @@ def test_a_grid_that_finds_no_room(tmp_path, monkeypatch):
             attempt(scene("gear").replace(**{"grid.nx": 8192, "grid.ny": 4096}))
     assert list(tmp_path.iterdir()) == []
     isothermal = [scene("gear").replace(**{"grid.nx": nx, "grid.ny": 256, "thermal.on": False}) for nx in (1024, 2048)]
-    assert memory_demand.needed(isothermal[1]) == pytest.approx(2 * memory_demand.needed(isothermal[0]) - memory_demand.BASE,
-                                                                rel=0.01)
+    small, large = map(memory_demand.needed_bytes, isothermal)
+    assert large == pytest.approx(2 * small - memory_demand.BASE, rel=0.01)
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits of Linux")

@@ -18,16 +18,16 @@ LOADED = np.array([[True, False]])
 
 
 def test_an_oscillation_is_not_settled():
-    from tehl_taichi.march.alternating_start import FLUTTER, SETTLED, unsettled
+    from tehl_taichi.march.alternating_start import FLUTTER, SETTLED, remaining_change
 
     swing = [100.0 + 15 * (-1) ** n for n in range(16)]
-    assert unsettled(blocks(*swing), LOADED) > FLUTTER
+    assert remaining_change(blocks(*swing), LOADED) > FLUTTER
     flutter = [100.0 + 0.3 * (-1) ** n for n in range(16)]
-    assert unsettled(blocks(*flutter), LOADED) < SETTLED < unsettled(blocks(*flutter[:2]), LOADED)
+    assert remaining_change(blocks(*flutter), LOADED) < SETTLED < remaining_change(blocks(*flutter[:2]), LOADED)
     threes = [100.0 + (0.4, -0.4, 0.1)[n % 3] for n in range(16)]
-    assert unsettled(blocks(*threes), LOADED) < SETTLED
-    assert unsettled(blocks(100.01, 100.0, 90.0), LOADED) == pytest.approx(0.01)
-    assert unsettled(blocks(100.0, 102.0, 104.0, 106.0), LOADED) > 1.0  # it drifts
+    assert remaining_change(blocks(*threes), LOADED) < SETTLED
+    assert remaining_change(blocks(100.01, 100.0, 90.0), LOADED) == pytest.approx(0.01)
+    assert remaining_change(blocks(100.0, 102.0, 104.0, 106.0), LOADED) > 1.0  # it drifts
 
 
 def film(**changes):
@@ -109,7 +109,7 @@ def forced_in_time(monkeypatch):
         report.converged = False
         return report, True
 
-    monkeypatch.setattr(steady, "settle", failing)
+    monkeypatch.setattr(steady, "find_steady", failing)
 
 
 def first(name="smooth-line", **changes):
@@ -237,7 +237,7 @@ def touching(description, nx):
 def test_the_film_formula_knows_which_grid_carries_a_film():
     """0.05 um at 2 GPa: the surfaces touch all over on the grids that it warns of, not on the one that it names."""
     thin = scene("smooth-line").replace(**{"thermal.on": False, "speed": 0.3, "grid.nx": 32, "grid.ny": 16})
-    assert thin_film.needed(thin) == (128, 64) and 0.2 < thin_film.carried(thin) < 0.25
+    assert thin_film.sufficient_grid(thin) == (128, 64) and 0.2 < thin_film.resolved_ratio(thin) < 0.25
     solved, nodes = touching(thin, 32)
     assert solved and nodes > 5
     assert touching(thin, 128) == (True, 0)
@@ -263,7 +263,7 @@ def test_a_grid_on_which_the_surfaces_touch_is_no_start_for_temperatures(monkeyp
     from tehl_taichi.march import steady
 
     sizes, settle = [], steady.settle
-    monkeypatch.setattr(steady, "settle", lambda levels, *rest: sizes.append(levels.nx) or settle(levels, *rest))
+    monkeypatch.setattr(steady, "find_steady", lambda levels, *rest: sizes.append(levels.nx) or settle(levels, *rest))
     shot = first(speed=0.3, srr=-0.5, **{"grid.nx": 128})
     assert 32 not in sizes and sizes[-1] == 128
     assert not shot.fields["contact"].any() and not shot.unsettled
@@ -313,7 +313,7 @@ def test_a_thin_film_comes_down_from_a_high_speed():
     from tehl_taichi.march.passage import march
 
     drawn = stability.carried(stability.starts(stability_scenes.random_cases(6, 2)))["random 2-5 line"]
-    assert drawn.grid.nx == 512 and thin_film.carried(drawn) > 1
+    assert drawn.grid.nx == 512 and thin_film.resolved_ratio(drawn) > 1
     shot = next(march(drawn.replace(**{"thermal.on": False})))
     assert shot.scalars["residual"] < 1e-6 and shot.scalars["mass_error"] < 1e-6 and not shot.fields["contact"].any()
     assert shot.scalars["h_c_m"] == pytest.approx(15.4e-9, rel=0.02)
@@ -407,7 +407,7 @@ def test_what_flutters_for_long_is_at_rest_while_it_hardly_does(monkeypatch, cha
 
     from tehl_taichi.march import pseudo_transient
 
-    monkeypatch.setattr(pseudo_transient, "unsettled", lambda *_: change)
+    monkeypatch.setattr(pseudo_transient, "remaining_change", lambda *_: change)
     done, heat = [], SimpleNamespace(T=np.zeros(1), sound=True)
     together = SimpleNamespace(heat=heat, lost=False, P=np.ones(1), _block_steps=54, block=done.append)
     assert pseudo_transient.PseudoTransient.rest(together) == change and len(done) == blocks

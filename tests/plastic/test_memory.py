@@ -42,11 +42,11 @@ def taken(scene):
                                      {"feature.height": 1e-6, "feature.length": float("inf"), "grid.nx": 512}])
 def test_it_is_within_a_quarter(changes):
     scene = GEAR.replace(**changes)
-    assert memory.needed(scene) == pytest.approx(taken(scene), rel=0.25)
+    assert memory.needed_bytes(scene) == pytest.approx(taken(scene), rel=0.25)
 
 
 def test_a_run_without_it_needs_none():
-    assert memory.needed(GEAR.replace(**{"time.run_in": 0})) == 0.0
+    assert memory.needed_bytes(GEAR.replace(**{"time.run_in": 0})) == 0.0
 
 
 def test_a_run_in_that_finds_no_room_is_refused_where_the_passage_has_it(tmp_path, monkeypatch):

@@ -48,8 +48,8 @@ def test_flow_under_frozen_pressures_at_equal_stress_over_yield_stress(passage, 
     ratio = _first(GEAR.replace(**{"bodies.a.yield_stress": 1.5e9}), passage)[2].largest * 1.5e9 / 1.893e9
     scene = GEAR.replace(**{"bodies.a.yield_stress": limit * ratio, "bodies.a.hardening": steel})
     histories, cells, loads = _first(scene, passage)
-    left = steel_body.after(cells, SteelState.virgin(cells), loads.moments)
-    again = run_in._after(histories, cells, left)
+    left = steel_body.state_after(cells, SteelState.virgin(cells), loads.moments)
+    again = run_in._steel_after(histories, cells, left)
     assert 0.95 < ratio < 0.99
     assert left.sinking.max() == pytest.approx(sinking, rel=0.12) and left.hardened.max() == pytest.approx(strain, rel=0.05)
     along = left.residual[:, :2]

@@ -50,7 +50,7 @@ def repeated(scene, soft=400e-9):
         seen.append(changes)
         return type("Reader", (Flattened,), {"soft": soft})(scene, changes)
 
-    return *run_in.repeated(scene, march, keep=kept.append), seen, kept
+    return *run_in.repeat_passages(scene, march, keep=kept.append), seen, kept
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -112,7 +112,7 @@ def test_a_look_takes_some_layers_alone_where_nothing_comes_near(monkeypatch):
     scene, depths = STEEL.replace(**{"bodies.a.yield_stress": 2.9e9}), []
     stresses = StressHistories.stresses
     monkeypatch.setattr(StressHistories, "stresses", lambda self, depth: depths.append(depth) or stresses(self, depth))
-    run_in.following(scene, Flattened(scene), run_in.RunInState())
+    run_in.state_after_passage(scene, Flattened(scene), run_in.RunInState())
     assert len(depths) == -(-6 // elastic_loads.EVERY)
 
 
@@ -125,7 +125,7 @@ def test_a_look_misses_no_cell_that_yields(monkeypatch):
     for every, some in ((elastic_loads.EVERY, elastic_loads.SOME), (1, 1)):
         monkeypatch.setattr(elastic_loads, "EVERY", every)
         monkeypatch.setattr(elastic_loads, "SOME", some)
-        states.append(steel_body.after(cells, start, elastic_loads.find(passage, cells, start).moments))
+        states.append(steel_body.state_after(cells, start, elastic_loads.find(passage, cells, start).moments))
     assert states[0].hardened.any() and np.array_equal(states[0].hardened, states[1].hardened)
 
 
@@ -230,7 +230,7 @@ def test_scenes_without_an_answer_are_refused(changes, words):
 
 
 def test_a_body_without_yield_stress_stays_elastic():
-    assert [one.name for one in run_in.flowing(STEEL)] == ["a"]
+    assert [one.name for one in run_in.yielding_surfaces(STEEL)] == ["a"]
     assert "bodies.b.hardening" in tehl.scene("gear").replace(**{"bodies.b.hardening": "swift-52100"}).warnings()[0]
     assert not replace(STEEL, time=replace(STEEL.time, steady_only=True)).runs_in
 

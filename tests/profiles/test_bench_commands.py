@@ -243,7 +243,7 @@ def test_sweep(tmp_path, monkeypatch):
     once(monkeypatch, side_by_side)
     run = sweeping.run
     monkeypatch.setattr(sweeping, "run", lambda *words, **options: run(*words, **{**options, "threads_per_worker": 2}))
-    monkeypatch.setattr(warm_cache, "once", lambda description: None)
+    monkeypatch.setattr(warm_cache, "ensure_kernels", lambda description: None)
     text, found = done(tmp_path, "sweep", "sweep", "--quick", "--workers", 1)
     row, = found["rows"]
     assert row["speed_up"] == 1.0 and 0 < row["cases_s"] <= row["seconds"]

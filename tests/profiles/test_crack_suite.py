@@ -9,7 +9,7 @@ from tehl_taichi.crack import growth
 from tehl_taichi.crack.analysis import follow
 from tehl_taichi.crack.crack_options import CrackOptions
 from tehl_taichi.crack.symmetry_plane import plane_of
-from tehl_taichi.runs.single_run import completed
+from tehl_taichi.runs.single_run import run_or_resume
 from tehl_taichi.scene import scene
 
 
@@ -63,7 +63,7 @@ def stored(request, taichi_cpu, tmp_path_factory):
     """(slip, store) of the reference scene without thermal stress, as the rows are."""
     srr, nx = request.param
     grid = {"grid.nx": nx, "grid.ny": nx // 4, "fatigue.thermal_stress": False, **cracks.BARE}
-    return srr, completed(scene("gear").replace(srr=srr, **grid), tmp_path_factory.mktemp("crack") / "gear.zarr").store
+    return srr, run_or_resume(scene("gear").replace(srr=srr, **grid), tmp_path_factory.mktemp("crack") / "gear.zarr").store
 
 
 @pytest.mark.slow
@@ -88,7 +88,7 @@ def test_straight_cracks_of_the_reference_scene_hardly_depend_on_their_elements(
     plane, E_star = plane_of(saved.scene, saved), saved.scene.body_a.E / (1 - saved.scene.body_a.nu**2)
     for degrees in (15, 30, 45, 90, 135, 165):
         path = -37e-6 + np.array([0, 20e-6 * np.exp(1j * np.radians(degrees))])
-        coarse, fine = (growth.loaded(plane, path, CrackOptions(), E_star, count) for count in (24, 48))
+        coarse, fine = (growth.load_crack(plane, path, CrackOptions(), E_star, count) for count in (24, 48))
         assert coarse.missed == fine.missed == 0
         np.testing.assert_allclose(coarse.K[0].max(), fine.K[0].max(), rtol=0.01)
         np.testing.assert_allclose(np.ptp(coarse.K[1]), np.ptp(fine.K[1]), rtol=0.01)
@@ -100,6 +100,6 @@ def test_residual_stress_shuts_the_reference_crack(stored):
     srr, saved = stored
     plane = plane_of(saved.scene, saved, -200e6)
     x = ROWS[srr][3]
-    crack = growth.loaded(plane, x + np.array([0, 5e-6j]), CrackOptions(), 206e9 / 0.91)
+    crack = growth.load_crack(plane, x + np.array([0, 5e-6j]), CrackOptions(), 206e9 / 0.91)
     assert (crack.K[0] == 0).all()
     assert (crack.touching > 0).any()

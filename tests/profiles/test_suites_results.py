@@ -86,8 +86,8 @@ def test_random_scenes_on_the_grids_that_their_films_ask_for():
             continue
         most, nx = stability.FINEST[Scales.of(description).kind], fine[name].grid.nx
         finer += nx > description.grid.nx
-        assert thin_film.carried(fine[name]) >= 1 or nx == most
-        assert (nx > description.grid.nx) == (thin_film.carried(description) < 1)
+        assert thin_film.resolved_ratio(fine[name]) >= 1 or nx == most
+        assert (nx > description.grid.nx) == (thin_film.resolved_ratio(description) < 1)
         assert fine[name].grid.ny == 16 * (nx // 64 if most == 256 else 1)
     assert 8 < finer < 30
 

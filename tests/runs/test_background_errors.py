@@ -68,7 +68,7 @@ def test_only_an_idle_core_has_them_beside(taichi_cpu, monkeypatch):
     for cores, working, expected in ((threads, [], 0), (threads + 1, [], 1), (threads + 1, ["a lane"], 0)):
         monkeypatch.setattr(background_errors.cores, "available", lambda cores=cores: cores)
         monkeypatch.setattr(job, "_lane", working)
-        assert max(0, background_errors.idle()) == expected
+        assert max(0, background_errors.idle_cores()) == expected
         monkeypatch.setattr(background_errors, "_started", sleeper if expected else no_process)
         with background_errors.background_answers(SHORT) as told:
             assert (told(None).func is coarse_runs.answers) == (not expected)
@@ -95,9 +95,9 @@ def sleeper(*_):
 
 def test_only_long_runs_have_them_beside():
     gear = scene("gear")
-    assert background_errors.lasts(gear) and not background_errors.lasts(gear.replace(**{"thermal.on": False}))
-    assert background_errors.lasts(gear.replace(**{"thermal.on": False, "grid.nx": 512,
-                                                   "grid.ny": 128})) and not background_errors.lasts(SHORT)
+    assert background_errors.takes_long(gear) and not background_errors.takes_long(gear.replace(**{"thermal.on": False}))
+    assert background_errors.takes_long(gear.replace(**{"thermal.on": False, "grid.nx": 512,
+                                                        "grid.ny": 128})) and not background_errors.takes_long(SHORT)
 
 
 def test_who_wants_none_has_no_process(idle_core, monkeypatch):

@@ -10,7 +10,7 @@ from tehl_cli.main import app
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl
-from tehl_taichi.runs.compare_change import NOT_SEPARATED, change, separated
+from tehl_taichi.runs.compare_change import NOT_SEPARATED, are_separated, change
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.runs.sweep import case
 
@@ -26,9 +26,9 @@ def test_a_change_is_held_against_error_bars_and_the_size_of_the_quantity(first,
 
 
 def test_temperatures_differ_by_kelvins():
-    assert change((90.0, 1.0), (93.2, 0.5), unit="degC") == "+3.2 K" and separated((90.0, None), (93.2, None)) is None
+    assert change((90.0, 1.0), (93.2, 0.5), unit="degC") == "+3.2 K" and are_separated((90.0, None), (93.2, None)) is None
     assert change((90.0, 2.0), (93.2, 2.0), unit="degC") == NOT_SEPARATED
-    assert separated((1.320, None), (1.310, 0.007)) is None and separated((1.212, 0.005), (1.210, None)) is False
+    assert are_separated((1.320, None), (1.310, 0.007)) is None and are_separated((1.212, 0.005), (1.210, None)) is False
 
 
 @pytest.fixture
@@ -116,7 +116,7 @@ def studies(tmp_path_factory):
     """Three made-up studies: two over slip, of which the second has a value more, and one over the height."""
     folder = tmp_path_factory.mktemp("studies")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(case, "work", lambda job, *_: formula(job))
+        patch.setattr(case, "run_case", lambda job, *_: formula(job))
         slips, more = {"srr": [-0.1, 0.1]}, {"srr": [-0.1, 0.0, 0.1]}
         for name, axes, height in (("thin", slips, 0.5e-6), ("thick", more, 1e-6), ("heights", {"height": [1e-6, 2e-6]}, 1e-6)):
             tehl.sweep(BASE.replace(height=height), axes, folder / name, workers=1)

@@ -48,7 +48,7 @@ def test_hours_of_the_worse_body_with_their_error():
 
 
 def test_a_flank_has_them_in_its_record_table_and_comparison(tmp_path, monkeypatch):
-    monkeypatch.setattr(case, "work", lambda job, *_: {**position(job), "summary": searched("b")})
+    monkeypatch.setattr(case, "run_case", lambda job, *_: {**position(job), "summary": searched("b")})
     flank = tehl.flank("fzg-c", on="gear", at=("B-",), folder=tmp_path / "f", workers=1, steady=True)
     life, pair = flank.record["positions"][0]["summary"]["life"], flank.record["geometry"]
     assert (pair["z1"], pair["z2"]) == (16, 24)

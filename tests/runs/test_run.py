@@ -111,9 +111,9 @@ def test_a_passage_that_lacks_its_fatigue_says_so():
     from tehl_taichi.runs import single_run
 
     left = SimpleNamespace(store=SimpleNamespace(last_step=total_steps(RIDGE), run_in=None), scene=RIDGE)
-    assert single_run._missing(left) == ", the whole passage; stresses and errors are missing"
+    assert single_run._missing_words(left) == ", the whole passage; stresses and errors are missing"
     left.store.last_step -= 1
-    assert single_run._missing(left) == ""
+    assert single_run._missing_words(left) == ""
 
 
 def test_ctrl_c_says_what_is_stored_and_is_no_error_of_ours(done, tmp_path):
@@ -282,14 +282,14 @@ def test_bad_input_is_one_error_and_writes_nothing(tmp_path, monkeypatch, words,
 
 
 def test_a_completed_run_is_kept_gone_on_with_or_made(done, tmp_path):
-    from tehl_taichi.runs.single_run import completed
+    from tehl_taichi.runs.single_run import run_or_resume
 
     run, _ = done
     heard = Heard()
-    assert completed(RIDGE, run.path, progress=heard).summary == run.summary and heard.stages == []
+    assert run_or_resume(RIDGE, run.path, progress=heard).summary == run.summary and heard.stages == []
     with pytest.raises(tehl.StoreError, match="another scene"):
-        completed(RIDGE.replace(srr=0.1), run.path)
+        run_or_resume(RIDGE.replace(srr=0.1), run.path)
     with pytest.raises(KeyboardInterrupt):
-        completed(RIDGE, tmp_path / "c.zarr", progress=Heard(stop=3))
-    assert completed(RIDGE, tmp_path / "c.zarr", progress=heard).finished and heard.steps[-1] == 4
+        run_or_resume(RIDGE, tmp_path / "c.zarr", progress=Heard(stop=3))
+    assert run_or_resume(RIDGE, tmp_path / "c.zarr", progress=heard).finished and heard.steps[-1] == 4
     assert "steady start" not in [name for name, *_ in heard.stages]  # that it had

@@ -199,7 +199,7 @@ def test_a_study_over_a_viscosity_of_the_sheet():
 def test_gear_oils_are_those_of_their_grade(grade, nu_100):
     oil = NAMED[f"mineral-vg{grade}"].oil
     assert nu(oil, 40.0) * 1e6 == pytest.approx(grade, rel=1e-9) and nu(oil, 100.0) * 1e6 == pytest.approx(nu_100, rel=1e-9)
-    assert "made of ISO 3448" in oil.source and "estimated" in oil.source and data_sheet.estimated(oil)
+    assert "made of ISO 3448" in oil.source and "estimated" in oil.source and data_sheet.is_alpha_estimated(oil)
     with pytest.raises(SceneError, match="gives G0"):
         from_values({"name": oil.name, "G0": 4.57})
 

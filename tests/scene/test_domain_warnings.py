@@ -35,10 +35,10 @@ def test_gap_reaches():
 
 def settled(said):
     """The changes that the options of a sentence make."""
-    from tehl_cli.scene_options import given_by
+    from tehl_cli.scene_options import changes_of
 
     grid = re.search(r"--grid (\S+)", said)
-    return given_by({}, grid and grid[1], re.findall(r"--set (\S+)", said))
+    return changes_of({}, grid and grid[1], re.findall(r"--set (\S+)", said))
 
 
 def test_a_feature_that_may_find_no_room_is_doubted():

@@ -65,7 +65,7 @@ def test_the_grid_of_a_scene_file_stays(tmp_path):
 
 
 def test_what_the_grid_resolves_keeps_it():
-    assert grid_for_features.chosen(scene("gear")) == ({}, "")
+    assert grid_for_features.choose_grid(scene("gear")) == ({}, "")
 
 
 def test_a_rough_window_beats_none_for_the_smallest_dents(tmp_path):

@@ -104,7 +104,7 @@ def _passage(scene, s, x, y):
     yield [(s.name, s.speed, len(s.features)) for s in scene.surfaces]
     yield step_length(scene), total_steps(scene), scene.path, scene.output.every, scene.symmetric
     yield scene.zoom if scene.zooms else None
-    yield scene.runs_in and (scene.time.run_in, [(s.name, s.body.hardening) for s in run_in.flowing(scene)])
+    yield scene.runs_in and (scene.time.run_in, [(s.name, s.body.hardening) for s in run_in.yielding_surfaces(scene)])
     for at in np.linspace(*scene.path, 7):
         yield [hash((f.height_at((x[None] - one.pace * at) * s.a - f.x, y[:, None] * s.b - f.y) + 0.0).tobytes())
                for one in scene.surfaces for f in one.features]
@@ -174,7 +174,7 @@ def neighbours(scene, key):
 def test_a_key_changes_what_a_run_takes_or_is_said_to_have_no_effect(name):
     scene, tried = SCENES[name], 0
     idle, now = idle_keys.idle(scene), list(prepared(scene))
-    follow = [f"oil.{key}" for key in data_sheet.follows(vars(scene.oil))]
+    follow = [f"oil.{key}" for key in data_sheet.derived_keys(vars(scene.oil))]
     for key in (key for one, key in CASES if one == name):
         if key in (*idle_keys.LABELS, "contact.kind", *follow):  # a circle by either name
             continue

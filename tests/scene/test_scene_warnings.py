@@ -59,7 +59,7 @@ def test_a_film_too_thin_for_the_grid_is_doubted_before_the_run():
     said, = line.replace(**{"contact.hertz_pressure": 4e9, "contact.radius_x": 0.3, "speed": 0.02}).warnings()
     assert "no grid up to 2048 columns" in said
     hot, cold = (line.replace(**{"speed": 50.0, "thermal.on": on}) for on in (True, False))
-    assert thin_film.carried(hot) < 0.5 * thin_film.carried(cold)
+    assert thin_film.resolved_ratio(hot) < 0.5 * thin_film.resolved_ratio(cold)
 
 
 def test_no_doubts_about_laws_within_their_range():

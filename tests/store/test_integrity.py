@@ -345,10 +345,10 @@ def test_cut_passages_are_judged():
         said = [f"passage cut at {timeline.cut_at(cut):.2f} a" in text and "1.40 a" in text for text in cut.warnings()]
         assert said == ([True] if cut.time.steps else [])  # nobody wants steps where there are none
         assert any(line.startswith("rest of the passage") for line in cut.left_out())
-        assert timeline.uncut(cut) == gear
+        assert timeline.whole_passage(cut) == gear
     assert timeline.cut_at(gear.replace(**{"time.steps": 191})) is None  # behind the contact: 1.38 a
     assert timeline.cut_at(gear.replace(**{"time.steady_only": True})) is None
-    assert timeline.continued(gear, 192) is None
-    assert timeline.continued(gear.replace(**{"time.steps": 30}), 30, 12).time.steps == 42
-    assert timeline.continued(gear.replace(**{"time.steps": 30}), 30, 500) == gear
+    assert timeline.remaining_scene(gear, 192) is None
+    assert timeline.remaining_scene(gear.replace(**{"time.steps": 30}), 30, 12).time.steps == 42
+    assert timeline.remaining_scene(gear.replace(**{"time.steps": 30}), 30, 500) == gear
     assert "0.031 a between" in gear.replace(**{"output.every": 2}).warnings()[0]

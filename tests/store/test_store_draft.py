@@ -11,7 +11,7 @@ from small_stores import SMALL, shot, store
 
 from tehl_taichi.disk import drafts as places
 from tehl_taichi.disk.drafts import clean, staging_path
-from tehl_taichi.disk.locks import LOCK, Busy, Lock, abandoned, holder
+from tehl_taichi.disk.locks import LOCK, Busy, Lock, holder, is_abandoned
 from tehl_taichi.errors import Error, StoreError
 from tehl_taichi.store.store import Store
 from tehl_taichi.store.store_draft import StoreDraft
@@ -45,7 +45,7 @@ def test_one_writer_at_a_time_and_its_name(tmp_path):
 def test_a_lock_of_a_dead_process_is_taken_over_silently(tmp_path):
     saved = store(tmp_path / "a.zarr")
     killed_holder(saved.path)
-    assert abandoned(saved.path) and holder(saved.path) is None
+    assert is_abandoned(saved.path) and holder(saved.path) is None
     with Store.write(saved.path) as again:
         assert json.loads((again.path / LOCK).read_text())["pid"] == os.getpid()
 

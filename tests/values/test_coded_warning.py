@@ -10,7 +10,7 @@ from small_stores import store
 import tehl_taichi as tehl
 from tehl_taichi.store.store import Store
 from tehl_taichi.values.coded_text import Reason, grid_option, reasons_of, unknown_of, without_options
-from tehl_taichi.values.coded_warning import CodedWarning, coded_warning, lists, of_lists, texts, with_data
+from tehl_taichi.values.coded_warning import CodedWarning, coded_warning, lists, texts, warnings_of_lists, with_data
 
 
 def test_a_check_gives_its_sentence_the_registry_its_code():
@@ -21,10 +21,10 @@ def test_a_check_gives_its_sentence_the_registry_its_code():
 
 def test_they_come_back_from_lists_and_from_another_process():
     warnings = [CodedWarning("one", "a", {"x_m": 1.0}), CodedWarning("two", "b")]
-    for back in (of_lists(*lists(warnings).values()), pickle.loads(pickle.dumps(warnings)),
-                 of_lists(*map(json.loads, texts(warnings).values()))):
+    for back in (warnings_of_lists(*lists(warnings).values()), pickle.loads(pickle.dumps(warnings)),
+                 warnings_of_lists(*map(json.loads, texts(warnings).values()))):
         assert back == warnings and [(one.code, one.data) for one in back] == [("a", {"x_m": 1.0}), ("b", {})]
-    assert [(one, one.code) for one in of_lists(["old"], [], [])] == [("old", "")]
+    assert [(one, one.code) for one in warnings_of_lists(["old"], [], [])] == [("old", "")]
 
 
 def test_a_scene_and_its_store_have_them(tmp_path):
@@ -66,7 +66,7 @@ def test_options_are_replaced_by_the_words_that_come_with_them():
     grid = grid_option(512, 128)
     made = with_data(f"too coarse; {grid}", grid, cells=3)
     assert made.data == {"cells": 3, "options": {"--grid 512x128": "a grid of 512 × 128 cells"}}
-    back, = of_lists(*map(json.loads, texts([made]).values()))
+    back, = warnings_of_lists(*map(json.loads, texts([made]).values()))
     assert without_options(back) == "too coarse; a grid of 512 × 128 cells"
     assert without_options("of an older store: --grid 512x128") == "of an older store: --grid 512x128"
 

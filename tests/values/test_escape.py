@@ -146,11 +146,11 @@ def test_headers_of_an_exported_table(tmp_path):
 
 
 def test_labels_of_plotly_are_no_tags():
-    from tehl_taichi.report.document import _labelled
+    from tehl_taichi.report.document import _escape_labels
 
     spec = {"data": [{"name": "<a href='x'>", "x": [1.0], "hovertemplate": "a<extra></extra>"}],
             "layout": {"xaxis": {"title": {"text": "<b>"}, "ticktext": ["<i>", "b"]}}}
-    found = _labelled(spec)
+    found = _escape_labels(spec)
     assert found["data"][0] == {"name": "&lt;a href='x'&gt;", "x": [1.0], "hovertemplate": "a<extra></extra>"}
     assert found["layout"]["xaxis"] == {"title": {"text": "&lt;b&gt;"}, "ticktext": ["&lt;i&gt;", "b"]}
     assert label("a & <b>") == "a &amp; &lt;b&gt;"

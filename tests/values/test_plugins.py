@@ -69,7 +69,7 @@ def test_known_values_of_the_user_are_computed(own, text, computed, good):
     (file, name, known, found, right), = self_test.plugins_checked()
     assert file == str(own / "mine.py") and name == "rounded" and known.endswith("51/0.8 MPa: 5.1e+07")
     assert found.startswith(computed) and right is good
-    assert plugins.unread() == [own.parent / "lost.py"]
+    assert plugins.unread_files() == [own.parent / "lost.py"]
 
 
 def test_an_error_that_is_not_ours_names_the_files_of_the_user(own):
@@ -191,9 +191,9 @@ def test_the_scene_of_a_gear_file_counts_too(scene_file, tmp_path, monkeypatch):
     monkeypatch.setenv("TEHL_PLUGINS", "")
     monkeypatch.setattr(sys.modules["tehl_taichi.values.registry"], "started", set())
     (tmp_path / "gears.toml").write_text('base = "fzg-c"\nscene = "my.toml"\n')
-    plugins.of_file(tmp_path / "gears.toml")
+    plugins.use_plugins_of(tmp_path / "gears.toml")
     assert os.environ["TEHL_PLUGINS"] == str(tmp_path / "mylaws")
-    plugins.of_file(tmp_path / "my.toml")
+    plugins.use_plugins_of(tmp_path / "my.toml")
     assert os.environ["TEHL_PLUGINS"] == str(tmp_path / "mylaws")
 
 
@@ -202,4 +202,4 @@ def test_the_scene_of_a_gear_file_counts_too(scene_file, tmp_path, monkeypatch):
 def test_what_is_no_plugin_is_refused(scene_file, value, words):
     scene_file.write_text(SCENE.replace('["mylaws"]', value))
     with pytest.raises(SceneError, match=words):
-        plugins.of_file(scene_file)
+        plugins.use_plugins_of(scene_file)

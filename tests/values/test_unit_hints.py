@@ -12,7 +12,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
 from tehl_taichi.runs.flank import load_table
 from tehl_taichi.runs.flank.mesh import Mesh
-from tehl_taichi.runs.flank.positions import along
+from tehl_taichi.runs.flank.positions import positions_along
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.scene.oil import Oil
@@ -130,9 +130,9 @@ def test_shares_of_the_load_by_ways_in_millimetres():
 
     pair = gear_pair("fzg-c")
     ends = [1.01 * end for end in Mesh(pair).ends]
-    along(Mesh(dataclasses.replace(pair, load_share=tuple((x, 1.0) for x in ends))))
+    positions_along(Mesh(dataclasses.replace(pair, load_share=tuple((x, 1.0) for x in ends))))
     with pytest.raises(SceneError, match="did you mean -.*e-3 m"):
-        along(Mesh(dataclasses.replace(pair, load_share=tuple((1e3 * x, 1.0) for x in ends))))
+        positions_along(Mesh(dataclasses.replace(pair, load_share=tuple((1e3 * x, 1.0) for x in ends))))
 
 
 def test_a_temperature_in_kelvin():

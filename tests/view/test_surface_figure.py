@@ -160,7 +160,7 @@ def test_holes_are_marked_in_the_report(tmp_path, columns, marked):
     picture = surface_plots.picture(holed(tmp_path, columns=columns, pixel=2e-6))
     heat, cover = picture.traces
     assert cover["z"].shape == heat["z"].shape and np.argwhere(np.isfinite(cover["z"])).min(axis=0)[0] == 24
-    assert ("not measured", "6, filled in") in surface_plots.measured(holed(tmp_path).features[0], scene("gear"))
+    assert ("not measured", "6, filled in") in surface_plots.map_facts(holed(tmp_path).features[0], scene("gear"))
     assert np.isfinite(cover["z"]).sum() == marked and "Light: points that were not measured" in picture.caption
     assert "Light" not in surface_plots.picture(scanned(tmp_path)[0]).caption
 

@@ -16,7 +16,7 @@ from tehl_taichi.values.registry import collect
 THIN = Fluid(lambda p: 1.0 + 0.0 * p, lambda p: 1.0 + 0.0 * p)
 
 
-def in_tension(filling, mouth):
+def check_value(filling, mouth):
     """Check value: factor F_I of a crack of unit length normal to the surface, under unit tension and this pressure at its
     mouth, at the end of a long time.
     """

@@ -7,7 +7,7 @@ a gap (:data:`tehl_taichi.crack.filling.GAP`). No pressure is negative: a cavity
 import numpy as np
 
 from tehl_taichi.crack.filling import Filling
-from tehl_taichi.crack.fillings import in_tension
+from tehl_taichi.crack.fillings import check_value
 from tehl_taichi.values.registry import Checked
 
 SAME, ROUNDS = 1e-6, 120  # of the largest pressure: resistances and pressures fit; rounds of a moment until it is unsettled
@@ -63,4 +63,4 @@ ALONG: Filling = Filling(
     name="flow", says="oil flows along the crack, in and out at the mouth: Reynolds equation in the crack opening",
     source="Reynolds 1886; cavities after Elrod 1981", inside=inside,
     checked=(Checked("normal edge crack, tension 1, pressure 3 at the mouth for long: four times that of the tension",
-                     4 * 1.1215, lambda: in_tension(ALONG, mouth=3.0), 1e-3),))
+                     4 * 1.1215, lambda: check_value(ALONG, mouth=3.0), 1e-3),))

@@ -6,7 +6,7 @@ Trapped oil may part the faces at the mouth by its own pressure. It then escapes
 import numpy as np
 
 from tehl_taichi.crack.filling import Filling
-from tehl_taichi.crack.fillings import in_tension
+from tehl_taichi.crack.fillings import check_value
 from tehl_taichi.values.registry import Checked
 
 SAME, ROUNDS = 1e-10, 60  # of the pressure; rounds of the oil's compressibility, or of the pressure that lets oil out
@@ -34,7 +34,7 @@ def _step(march, n, before, content):
     if found.pressed < 0:
         return _full(march, found)
     inside = _shut_in(march, n, content)
-    return (inside, content) if inside.pressed >= 0 else _full(march, _let_out(march, n, inside.pressure[0]))
+    return (inside, content) if inside.pressed >= 0 else _full(march, _leaking_state(march, n, inside.pressure[0]))
 
 
 def _shut_in(march, n, content):
@@ -50,7 +50,7 @@ def _shut_in(march, n, content):
     return found
 
 
-def _let_out(march, n, high):
+def _leaking_state(march, n, high):
     """State at the pressure at which the mouth just touches.
 
     It lies between the film's pressure, at which the mouth is shut, and `high`, at which it opens (Illinois method).
@@ -73,4 +73,4 @@ SEALED: Filling = Filling(
     name="sealed", says="film pressure while the mouth is open; oil inside is trapped when it closes",
     source="Keer & Bryant 1983; Bower 1988 (J. Tribol. 110)", inside=inside,
     checked=(Checked("normal edge crack, tension 1 and pressure 3 at a mouth that stays open: four times that of the tension",
-                     4 * 1.1215, lambda: in_tension(SEALED, mouth=3.0), 1e-3),))
+                     4 * 1.1215, lambda: check_value(SEALED, mouth=3.0), 1e-3),))

@@ -54,14 +54,14 @@ def scenes(scene):
         nx, ny = scene.grid.nx // 2**level, scene.grid.ny // 2**level
         steps = min(scene.time.steps, max(1, scene.time.steps // 2**level))  # -1 is all
         try:
-            out.append(_rough_as_seen(scene, 2**level).replace(**{"grid.nx": nx, "grid.ny": ny, "time.steps": steps,
-                                                                  "output.profiles": False}))
+            out.append(_resolved_scene(scene, 2**level).replace(**{"grid.nx": nx, "grid.ny": ny, "time.steps": steps,
+                                                                   "output.profiles": False}))
         except Error as error:
             refused.append(f"a coarse-grid run on {nx} x {ny} cells is refused: {error}")
-    return out[::-1], [*refused, *_all_of_them(scene)] if refused else []
+    return out[::-1], [*refused, *_cells_for_all(scene)] if refused else []
 
 
-def _rough_as_seen(scene, times):
+def _resolved_scene(scene, times):
     """Scene without the features that a grid with 1/times of the columns does not resolve; with all if it resolves none.
 
     Of roughness the long waves are kept; the effect of the others is part of the difference between grids.
@@ -70,7 +70,7 @@ def _rough_as_seen(scene, times):
     return replace(scene, features=seen) if seen else scene
 
 
-def _all_of_them(scene):
+def _cells_for_all(scene):
     """Sentences about the cell numbers that allow every coarse-grid run, if those of the scene do not."""
     nx, ny = (least << COMPANIONS for least, _ in MULTIPLES.values())
     if scene.grid.nx % nx or scene.grid.ny % ny:
@@ -86,8 +86,8 @@ def passage_readings(scene, reader, scalar, searches=None, run_in=None):
     p, h, a = *(scalar(name)[1:] for name in ("p_max_Pa", "h_min_m")), Scales.of(scene).a
     bars_of = [entry for entry in quantities.of_part("transient") if entry.error]
     out = {entry.key: _reading(entry, scalar, scene) for entry in bars_of if entry.exists(scene)}
-    out["p_max_Pa"] = readings.highest(_moment(reader, int(np.argmax(p)) + 1), a)
-    out["h_min_m"] = readings.lowest(_moment(reader, int(np.argmin(h)) + 1), scene)
+    out["p_max_Pa"] = readings.pressure_reading(_moment(reader, int(np.argmax(p)) + 1), a)
+    out["h_min_m"] = readings.film_reading(_moment(reader, int(np.argmin(h)) + 1), scene)
     found = indices(searches or {})
     out |= {name: GridReading(float(part["Fi_max"]), doubt=_shallow(name, found)) for name, part in found.items()}
     out |= _of_cells(out, searches or {})
@@ -98,18 +98,21 @@ def passage_readings(scene, reader, scalar, searches=None, run_in=None):
     steel = {of_run_in(key): GridReading(run_in[key]) for key in RUN_IN if key in (run_in or {})}
     out |= steel
     # a peak that the grid does not resolve at some moment: neither its pressure is known nor what it does to oil and steel
-    why = readings.unresolved(reader, _high(p), p.max(), a)
+    why = readings.pressure_doubt(reader, _high(p), p.max(), a)
     pressures = course(p, [reader.feature_x(n) / a for n in range(1, p.size + 1)], scene.path)
     of = {kind: [entry.key for entry in bars_of if entry.error == kind] for kind in (quantities.SWAYED, quantities.SHARP)}
     out |= {name: replace(out[name], swayed=bool(why)) for name in of[quantities.SWAYED] if name in out}
-    return out | {name: _doubted(out[name], why, pressures) for name in (*of[quantities.SHARP], *whole(found), *mises, *steel)
+    sharp = (*of[quantities.SHARP], *whole(found), *mises, *steel)
+    return out | {name: _with_doubt(out[name], why, pressures) for name in sharp
                   if name in out}
 
 
 def _reading(entry, scalar, scene):
     """Reading of a number that is no extreme over the nodes."""
     value = entry.of(scalar(entry.series), None)
-    return readings.hottest(value, scene) if entry.key in quantities.HEAT else GridReading(value, positive=entry.positive)
+    if entry.key in quantities.HEAT:
+        return readings.temperature_reading(value, scene)
+    return GridReading(value, positive=entry.positive)
 
 
 def _spread_reading(part, key):
@@ -129,7 +132,7 @@ def _of_cells(out, searches):
     return {wide: out[own] for wide, own in names if wide not in out and own in out}
 
 
-def _doubted(reading, why, pressures):
+def _with_doubt(reading, why, pressures):
     """Reading with a doubt `why`, if it depends on the highest pressures (a :func:`course`)."""
     return replace(reading, doubt=why or reading.doubt, course=() if code_of(reading.doubt) == SHALLOW.code else pressures)
 
@@ -205,7 +208,7 @@ def whole(found):
 def resolved(scene, reader, scalar):
     """Position (a) of the feature up to which the grid resolves every pressure peak; None if it always does."""
     p, a = scalar("p_max_Pa")[1:], Scales.of(scene).a
-    first = next((n for n in _high(p) if readings.unresolved(reader, [n], p.max(), a)), None)
+    first = next((n for n in _high(p) if readings.pressure_doubt(reader, [n], p.max(), a)), None)
     return None if first is None else float(reader.feature_x(first - 1)) / a
 
 
@@ -249,7 +252,7 @@ def _passages(scene, notify):
     def passage(changes):
         return Snapshots([first, *_steps(march(scene, start, changes), notify)])
 
-    reader, state = run_in.repeated(scene, passage)
+    reader, state = run_in.repeat_passages(scene, passage)
     return Snapshots(reader.items, state.residual_fields), run_in_numbers.numbers(scene, state)
 
 

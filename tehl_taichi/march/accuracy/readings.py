@@ -19,10 +19,10 @@ ON_FLOOR = 1.01  # of rheology.film_floor: the residual and a store's single pre
 
 def steady(shot, scene):
     """{name: GridReading} of a snapshot of a steady smooth contact."""
-    out = {"h_c_m": GridReading(shot.scalars["h_c_m"], positive=True), "h_min_m": lowest(shot, scene),
-           "p_max_Pa": highest(shot, Scales.of(scene).a),
+    out = {"h_c_m": GridReading(shot.scalars["h_c_m"], positive=True), "h_min_m": film_reading(shot, scene),
+           "p_max_Pa": pressure_reading(shot, Scales.of(scene).a),
            "friction_coefficient": GridReading(shot.scalars["friction_coefficient"]),
-           **{name: hottest(shot.scalars[name], scene) for name in HEAT if name in shot.scalars}}
+           **{name: temperature_reading(shot.scalars[name], scene) for name in HEAT if name in shot.scalars}}
     if "film_max_C" in out:  # a narrow peak of pressure may be the hottest place
         out["film_max_C"] = replace(out["film_max_C"], doubt=out["p_max_Pa"].doubt)
     if shot.fields["contact"].any():  # nothing is known of a film that this grid does not have, nor of what it does
@@ -30,12 +30,12 @@ def steady(shot, scene):
     return out
 
 
-def hottest(value, scene):
+def temperature_reading(value, scene):
     """Reading of a temperature (deg C)."""
     return GridReading(float(value), settled=SETTLED * scene.thermal.tolerance)
 
 
-def highest(shot, a):
+def pressure_reading(shot, a):
     """Reading of the largest pressure of a snapshot, Pa and m; a: half-width of the contact, m."""
     p = shot.fields["pressure"]
     i, j = peak(p)
@@ -50,22 +50,22 @@ def doubt(x, height, i, a):
     """
     if not height:
         return ""
-    at_exit = exits(x[i], a)
+    at_exit = is_at_exit(x[i], a)
     return Reason(EXIT * at_exit + SPIKE.format(height), "exit" if at_exit else "peak")
 
 
-def exits(x, a):
+def is_at_exit(x, a):
     """Whether a peak or ripple at x (m) is at the exit of a contact of half-width a."""
     return bool(x > EXITS * a)
 
 
-def unresolved(reader, entries, largest, a):
+def pressure_doubt(reader, entries, largest, a):
     """The :func:`doubt` about these entries, from the worst peak of all; largest: their largest pressure, Pa."""
     height, at = max(sharpest(reader.fields(n, ("pressure",))["pressure"], largest) for n in entries)
     return doubt(reader.x, height, at, a)
 
 
-def lowest(shot, scene):
+def film_reading(shot, scene):
     """Reading of the smallest film of a snapshot, m; a film on its floor has the floor's height on every grid."""
     h = shot.fields["film"]
     i, j = np.unravel_index(h.argmin(), h.shape)

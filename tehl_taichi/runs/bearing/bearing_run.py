@@ -15,11 +15,11 @@ from tehl_taichi.runs.bearing.ring_contacts import RINGS
 from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
 from tehl_taichi.runs.bearing.static_safety import LIMITS, safety
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
-from tehl_taichi.runs.flank.flank_run import fresh
+from tehl_taichi.runs.flank.flank_run import first_free_folder
 from tehl_taichi.runs.flank.outcomes import summaries
 from tehl_taichi.runs.progress import Progress
 from tehl_taichi.scene import Scene, grid_for_features, scene_file
-from tehl_taichi.scene.aliases import settled, words
+from tehl_taichi.scene.aliases import resolve, words
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.film_formula import formula_words, heated_film, spread
 from tehl_taichi.scene.scales import reduced_modulus
@@ -61,10 +61,11 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     start = find(scene) if scene is not None else found.scene or default_scene()
     base = ring_scenes.base_of(start, feature)
     passing = bool(base.features) and not steady and (feature is not None or scene is not None or found.scene is not None)
-    changes = settled([(words(key, value), key, value) for key, value in (changes or {}).items()])
+    changes = resolve([(words(key, value), key, value) for key, value in (changes or {}).items()])
     ring_scenes.check_free(changes)
-    loads, speeds, rings = solved(found, base, changes, on if passing else "", grid_for_features.is_open(start, changes))
-    target = path_of("folder", folder) if folder else fresh(found.name)
+    choose = grid_for_features.is_grid_open(start, changes)
+    loads, speeds, rings = solve_mechanics(found, base, changes, on if passing else "", choose)
+    target = path_of("folder", folder) if folder else first_free_folder(found.name)
     Bearing.check_writable(target)
     _check_stores(target, rings)
     record = bearing_record(found, target, loads, speeds, rings, roughness)
@@ -78,7 +79,7 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     return _run(made, rings, workers, threads, progress) if run else made
 
 
-def solved(found, base, changes, on, choose=False):
+def solve_mechanics(found, base, changes, on, choose=False):
     """Solve the mechanics of a BearingSource: (loads, speeds, {ring: :class:`RingCase`}).
 
     on: ring that carries the features, "" for none; choose: whether their grid is chosen here.
@@ -165,7 +166,7 @@ def _check_stores(folder, rings):
 
 def write_scenes(folder, rings):
     """Write scene files with every value: FOLDER/inner.toml and outer.toml. Raises StoreError."""
-    with files.blamed(folder, "cannot write to"):
+    with files.disk_errors(folder, "cannot write to"):
         for ring, case in rings.items():
             files.replace(Path(folder) / f"{ring}.toml", scene_file.dumps(case.scene).encode())
 

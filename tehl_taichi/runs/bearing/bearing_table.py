@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 from tehl_taichi.runs.bearing.ring_contacts import RINGS
-from tehl_taichi.runs.flank.flank_columns import PASSAGE, dig, error_of, title_of
+from tehl_taichi.runs.flank.flank_columns import PASSAGE, error_of, title_of, value_at
 from tehl_taichi.values.digits import with_error
 from tehl_taichi.values.escape import cell
 
@@ -41,7 +41,7 @@ class RingRow:
 
 def of_ring(*keys):
     """Function that finds a value in the record of a ring by its keys."""
-    return lambda bearing, ring: dig(ring, *keys)
+    return lambda bearing, ring: value_at(ring, *keys)
 
 
 def _result(part, name, label, factor, form, *keys):
@@ -52,16 +52,16 @@ def _result(part, name, label, factor, form, *keys):
 
 def film_ratio(bearing, ring):
     """Film parameter lambda: central film over the combined rms height of both surfaces; the computed film if it exists."""
-    if (own := dig(ring, "summary", "lambda")) is not None:
+    if (own := value_at(ring, "summary", "lambda")) is not None:
         return own
-    film = dig(ring, "summary", "steady", "h_c_m") or ring.get("film_formula_m")
+    film = value_at(ring, "summary", "steady", "h_c_m") or ring.get("film_formula_m")
     Sq = bearing.get("roughness_Sq_m")
     return film / Sq if film and Sq else None
 
 
 def sliding_friction(bearing, ring):
     """Friction coefficient of the run; None for rollers, whose contacts do not slip."""
-    return dig(ring, "summary", "steady", "friction_coefficient") if ring["slip"] else None
+    return value_at(ring, "summary", "steady", "friction_coefficient") if ring["slip"] else None
 
 
 def sliding_loss(bearing, ring):

@@ -47,7 +47,7 @@ def ring_scene(base, changes, name, contact, dry, u_m, srr, passes, choose=False
         wider = room(base.replace(**bodies(given)), dry.scene_load, contact.R_x) if passes and dry.kind == LINE else {}
         kept = {key: value for key, value in wider.items() if key not in given}
         keys, start = {**own, **grid, **kept, **given}, base if passes else smooth(base)
-        fine, words = grid_for_features.fitting(start, keys) if choose and passes else ({}, "")
+        fine, words = grid_for_features.choose_for_changes(start, keys) if choose and passes else ({}, "")
         return start.replace(**{**keys, **fine, "time.steady_only": not passes}), words
     except SceneError as error:
         raise SceneError(f"{contact.ring} ring: {error}") from None

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.runs.flank.flank_columns import plotted
+from tehl_taichi.runs.flank.flank_columns import plotted_value
 from tehl_taichi.runs.flank.flank_figure import LAST, PANELS, style
 from tehl_taichi.view.figures import palette
 
@@ -34,7 +34,7 @@ def drawn(page, cam):
 
 def series(cam, what):
     """(angles, values, error bars) of a number; an angle without it breaks the line (nan)."""
-    rows = [(at.angle, *plotted(at, p_H, summary, what)) for at, p_H, summary in cam.rows]
+    rows = [(at.angle, *plotted_value(at, p_H, summary, what)) for at, p_H, summary in cam.rows]
     if all(value is None for _, value, _ in rows):
         return np.array([]), np.array([]), np.array([])
     return tuple(np.array([np.nan if one is None else one for one in column], float) for column in zip(*rows))

@@ -6,13 +6,13 @@ from tehl_taichi.errors import SceneError, interrupt
 from tehl_taichi.runs.bearing.ring_scenes import base_of, smooth
 from tehl_taichi.runs.cam import cam_table
 from tehl_taichi.runs.cam.stored_cam import Cam
-from tehl_taichi.runs.flank.flank_run import fresh
+from tehl_taichi.runs.flank.flank_run import first_free_folder
 from tehl_taichi.runs.flank.line_contacts import scene_and_grid_at
 from tehl_taichi.runs.flank.outcomes import summaries
 from tehl_taichi.runs.progress import Progress
 from tehl_taichi.scene import Scene, grid_for_features
 from tehl_taichi.scene import scene as built_in
-from tehl_taichi.scene.aliases import settled, words
+from tehl_taichi.scene.aliases import resolve, words
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.store.json_values import plain
@@ -33,15 +33,15 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     places = cam_table.load(path)
     start = find(scene) if scene is not None else smooth(built_in(SCENE))
     base = base_of(start, feature)
-    changes = settled([(words(key, value), key, value) for key, value in (changes or {}).items()])
+    changes = resolve([(words(key, value), key, value) for key, value in (changes or {}).items()])
     passes = {"time.steady_only": not base.features or steady}
-    own, choose = base if base.features and not steady else smooth(base), grid_for_features.is_open(start, changes)
+    own, choose = base if base.features and not steady else smooth(base), grid_for_features.is_grid_open(start, changes)
     found = {n: scene_and_grid_at(own, {**changes, **passes}, path.stem, n + 1, at, choose and feature is not None)
              for n, at in enumerate(places) if not at.without_film}
     scenes = {n: one for n, (one, _) in found.items()}
     if not scenes:
         raise SceneError(f"table {path}: no angle has a film; the first one: {places[0].without_film}")
-    target = path_of("folder", folder) if folder else fresh(path.stem)
+    target = path_of("folder", folder) if folder else first_free_folder(path.stem)
     Cam.check_writable(target)
     for grid in (grid for _, grid in found.values() if grid):
         (progress or Progress()).say(grid)

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from tehl_taichi.runs.flank.flank_columns import plotted
+from tehl_taichi.runs.flank.flank_columns import plotted_value
 from tehl_taichi.view.figures import palette
 
 JUDGED = "judged"
-# panel: label, factor, {legend: keys in the summary}; "p_H", "judged" ...: see flank_columns.plotted
+# panel: label, factor, {legend: keys in the summary}; "p_H", "judged" ...: see flank_columns.plotted_value
 PANELS = (("film (µm)", 1e6, {"steady, centre": ("steady", "h_c_m"), "steady, smallest": ("steady", "h_min_m"),
                               "smallest, feature passes": ("transient", "h_min_m")}),
           ("largest pressure (GPa)", 1e-9, {"Hertz": "p_H", "steady": ("steady", "p_max_Pa"),
@@ -61,7 +61,7 @@ def _series(flank, what):
     """
     out: list[tuple[float, float, float | None]] = []
     for at, p_H, summary in flank.rows:
-        value, error = plotted(at, p_H, summary, what)
+        value, error = plotted_value(at, p_H, summary, what)
         if value is None:
             continue
         if out and out[-1][0] == at.x_pl:

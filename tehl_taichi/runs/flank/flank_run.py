@@ -17,7 +17,7 @@ from tehl_taichi.runs.flank.specific_film import film_ratios
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.runs.progress import Progress
 from tehl_taichi.scene import Scene
-from tehl_taichi.scene.aliases import settled, words
+from tehl_taichi.scene.aliases import resolve, words
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.store.json_values import plain
@@ -38,12 +38,12 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
           workers: int | None = None, threads: int | None = None, progress: Progress | None = None) -> Flank:
     """Compute a flank: see :func:`tehl_taichi.flank`."""
     found, scene = flank_source(gear).changed(torque, speed), None if scene is None else find(scene)
-    changes = _settled(changes or {}, steady)
+    changes = _all_changes(changes or {}, steady)
     places = found.positions(on, positions, at)
     scenes = [scene_at(scene or found.scene, changes, found.name, n, place) for n, place in enumerate(places, 1)]
-    target = path_of("folder", folder) if folder else fresh(found.name)
+    target = path_of("folder", folder) if folder else first_free_folder(found.name)
     Flank.check_writable(target)
-    subject = about(found, target, (on or "pinion") if found.pair else "")
+    subject = describe(found, target, (on or "pinion") if found.pair else "")
     outcomes = [Outcome(target / f"{one.name}.zarr", reason=WAITING) for one in scenes]
     done = 0
     try:
@@ -57,21 +57,21 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     return result
 
 
-def _settled(changes, steady):
+def _all_changes(changes, steady):
     """{full key: value} of all changes. Raises SceneError if `steady` contradicts a change."""
-    return settled([*((words(key, value), key, value) for key, value in changes.items()),
+    return resolve([*((words(key, value), key, value) for key, value in changes.items()),
                     *[("steady = True", "time.steady_only", True)] * steady])
 
 
 def flank_record(subject, places, scenes, outcomes):
-    """JSON object of a flank: its description (see :func:`about`), and the positions with their scenes and outcomes."""
+    """JSON object of a flank: its description (see :func:`describe`), and the positions with their scenes and outcomes."""
     pair = subject["geometry"]
     Ra = 0.5 * (pair.get("Ra1", 0.0) + pair.get("Ra2", 0.0))
     rates = machine_life.of_gears(pair["n1"], pair["z1"], pair["z2"], pair["on"]) if "z1" in pair else None
     return plain({**subject, "positions": [_position(*one, Ra, rates) for one in zip(places, scenes, outcomes)]})
 
 
-def about(found, folder, on):
+def describe(found, folder, on):
     """Description of a flank; found: result of :func:`flank_source`; on: pinion or gear, "" for a table."""
     return {"name": found.name, "folder": str(folder), "assumption": ASSUMPTION, "load_sharing": _sharing(found.pair),
             "geometry": _geometry(found.pair, on) if found.pair else {"table": found.source}}
@@ -100,7 +100,7 @@ def _position(at, scene, outcome, Ra, rates):
             "summary": machine_life.with_hours(outcome.summary, rates)}
 
 
-def fresh(name):
+def first_free_folder(name):
     """First of runs/NAME-1, runs/NAME-2 ... that does not exist."""
     n = 1
     while os.path.lexists(folder := Path("runs") / f"{name}-{n}"):

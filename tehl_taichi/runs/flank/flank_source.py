@@ -44,13 +44,14 @@ class FlankSource:
         return dataclasses.replace(self, pair=dataclasses.replace(self.pair, **given))
 
     def positions(self, on=None, count=None, at=()):
-        """Positions on the flank of `on` (pinion by default): see :func:`tehl_taichi.runs.flank.positions.along`; a table has
+        """Positions on the flank of `on` (pinion by default): see
+        :func:`tehl_taichi.runs.flank.positions.positions_along`; a table has
         fixed positions. Raises SceneError.
         """
         if count is not None and at:
             raise SceneError(f"positions = {shown(count)} and at = {shown(list(at))} contradict each other: give one of them")
         if self.pair:
-            return positions.along(Mesh(self.pair), on or "pinion", DEFAULT if count is None else count, at)
+            return positions.positions_along(Mesh(self.pair), on or "pinion", DEFAULT if count is None else count, at)
         for word, value in (("on", on), ("positions", count), ("at", at or None)):
             if value is not None:
                 raise SceneError(f"{word} = {shown(value)} has no effect: the rows of a table define the positions, and body a "

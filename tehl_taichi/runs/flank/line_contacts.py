@@ -33,7 +33,7 @@ def scene_and_grid_at(base, changes, name, n, position, choose=True):
         own = _own(plain, name, n, position, "operation.temperature" in given)
         wider = {} if steady else room(plain, position.load, position.R)
         keys = {**own, **given, **wider}
-        fine, words = grid_for_features.fitting(base, keys) if choose and not steady else ({}, "")
+        fine, words = grid_for_features.choose_for_changes(base, keys) if choose and not steady else ({}, "")
         return base.replace(**keys, **fine), words and f"{where(position)}: {words}"
     except SceneError as error:
         raise SceneError(f"position {where(position)}: {error}") from None

@@ -8,7 +8,7 @@ from tehl_taichi.runs.flank import table_text
 from tehl_taichi.runs.flank.positions import Position
 from tehl_taichi.values.checks import nearest
 from tehl_taichi.values.quantity import Number
-from tehl_taichi.values.unit_hints import meant
+from tehl_taichi.values.unit_hints import hint
 
 RADIUS, SPEED = Number("", "mm", 0.1, 1e6, usual=20.0), Number("", "m/s", 0.0, 1e3, usual=10.0)
 # column: (factor to SI, its declaration)
@@ -41,7 +41,7 @@ def _check_ways(path, found):
     way = max(found, key=lambda p: abs(p.x_pl)).x_pl * 1e3
     if 0 < abs(way) < SHORTEST:
         raise SceneError(f"table {path}: x_pl_mm = {way:g} mm is the largest distance from the pitch point, too small for a "
-                         f"tooth{meant(way, 'mm', lambda other: SHORTEST <= abs(other) <= 1e3, NEEDED['x_pl_mm'][1].usual)}")
+                         f"tooth{hint(way, 'mm', lambda other: SHORTEST <= abs(other) <= 1e3, NEEDED['x_pl_mm'][1].usual)}")
 
 
 def _check_names(path, names):

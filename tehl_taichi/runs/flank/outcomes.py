@@ -30,17 +30,17 @@ def summaries(scenes, folder, workers=None, threads=None, progress=None):
     keeps all stored data.
     """
     places = [(scene, Path(folder) / f"{scene.name}.zarr") for scene in scenes]
-    done = {n: outcome for n, place in enumerate(places) if (outcome := _before(*place))}
+    done = {n: outcome for n, place in enumerate(places) if (outcome := _stored_outcome(*place))}
     todo = [n for n in range(len(places)) if n not in done]
     workers, threads = pool.sizes(workers, threads, jobs=len(todo))
     pool.check(workers, threads)
     yield from done.items()
-    progress = _Once(progress or Progress())
+    progress = _KindsOnce(progress or Progress())
     yield from _run(places, todo, workers, threads, progress)
     progress.stage(STAGE, len(places), len(places))
 
 
-def _before(scene, path):
+def _stored_outcome(scene, path):
     """Outcome in a finished store, None if the scene has to run. Raises StoreError."""
     if not path.exists():
         return None
@@ -55,7 +55,7 @@ def _run(places, todo, workers, threads, progress):
     """Generator of the results of :func:`summaries` for the scenes that have to run."""
     alone, count = workers == 1, len(places)
     jobs = (case.CaseJob(places[n][0], str(places[n][1].absolute()), threads, shared=not alone) for n in todo)
-    work = _Here(progress, len(todo)) if alone else case.work
+    work = _LocalWork(progress, len(todo)) if alone else case.run_case
     if not alone:
         progress.say(f"{len(todo)} positions on {workers} workers")
     for ended, (place, answer) in enumerate(pool.results(work, jobs, workers=workers), count - len(todo)):
@@ -81,7 +81,7 @@ def _report(progress, scene, outcome, which):
         progress.warn_at(scene.name, sentence)
 
 
-class _Here:
+class _LocalWork:
     """Job function for this process; it passes the progress of each run to the listener."""
 
     def __init__(self, progress, count):
@@ -90,10 +90,10 @@ class _Here:
     def __call__(self, job):
         self.n += 1
         self.progress.say(f"{self.n} of {self.count}: {job.scene.name}")
-        return case.work(job, _Named(self.progress, job.scene.name))
+        return case.run_case(job, _NamedProgress(self.progress, job.scene.name))
 
 
-class _Once(Progress):
+class _KindsOnce(Progress):
     """Progress of a flank: passes on each kind of warning once, with the first position that has it."""
 
     def __init__(self, listener):
@@ -119,7 +119,7 @@ class _Once(Progress):
         self.listener.stage(name, done, total)
 
 
-class _Named(Progress):
+class _NamedProgress(Progress):
     """Progress of one of many runs: passes on stages and steps, and warnings with the run's name."""
 
     def __init__(self, listener, name):

@@ -91,7 +91,7 @@ def jumps(mesh, table):
     return sorted({x for (x, low), (x_1, high) in zip(table, table[1:]) if x == x_1 and low != high and A < x < E})
 
 
-def along(mesh, on="pinion", count=9, at=()):
+def positions_along(mesh, on="pinion", count=9, at=()):
     """Positions of a mesh, from the dedendum of body a (`on`: pinion or gear) to its addendum. Raises SceneError.
 
     count: number of positions. They include A to E and both sides of every load jump, then one on each side of C, then points

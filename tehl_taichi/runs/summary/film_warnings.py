@@ -8,7 +8,7 @@ from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.march.accuracy import readings
 from tehl_taichi.march.accuracy.peaks import peak, ripple, sharpest
 from tehl_taichi.scene import refinement
-from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import Option, code_of
 from tehl_taichi.values.coded_warning import with_data
@@ -63,7 +63,7 @@ def unresolved(store, summary):
         p = store.fields(n, ("pressure",))["pressure"]
         height, i = sharpest(p)
         if height >= 1.0:  # lower peaks show in the error bars, which are unknown then
-            at_exit, remedy = readings.exits(store.x[i], Scales.of(store.scene).a), _remedy(store, i)
+            at_exit, remedy = readings.is_at_exit(store.x[i], Scales.of(store.scene).a), _remedy(store, i)
             yield with_data(readings.EXIT * at_exit + _where(store, n, p, i) + _because(store, i, remedy), remedy,
                             p_max_Pa=float(p.max()), x_m=float(store.x[i]), entry=int(n))
 
@@ -75,7 +75,7 @@ def first_unresolved(store, summary):
     if later:
         p = store.fields(later[0], ("pressure",))["pressure"]
         i, row = sharpest(p, store.scalar("p_max_Pa").max())[1], peak(p)[1]
-        if i and not readings.exits(store.x[i], a):
+        if i and not readings.is_at_exit(store.x[i], a):
             at = f"X = {store.x[i] / a:.2f}, y = {store.y[row] * 1e6:.0f} um"
             grid = refinement.finer_grid_option(store.scene)
             yield with_data(f"the resolved part of the passage ends before the {_moment(store, later[0])}: its pressure peak "
@@ -89,15 +89,15 @@ def _where(store, n, p, i):
 
 
 def _moment(store, n):
-    return f"{where(store.scene)} at {store.feature_x(n) / Scales.of(store.scene).a:.2f} a"
+    return f"{position_word(store.scene)} at {store.feature_x(n) / Scales.of(store.scene).a:.2f} a"
 
 
 def _remedy(store, i):
     """Option that may resolve a peak at node i."""
     if store.x[i] > 0 and _endless(store.scene):
         return NO_VALUE
-    at_exit = readings.exits(store.x[i], Scales.of(store.scene).a)
-    return refinement.along(store.scene) if at_exit else refinement.finer_grid_option(store.scene)
+    at_exit = readings.is_at_exit(store.x[i], Scales.of(store.scene).a)
+    return refinement.finer_along_option(store.scene) if at_exit else refinement.finer_grid_option(store.scene)
 
 
 def _because(store, i, remedy):
@@ -111,7 +111,7 @@ def _because(store, i, remedy):
 def finer_exit(scene, why):
     """Grid to try if the error of a passage is unknown for this Reason; "" if that is not its exit or no grid helps."""
     helps = code_of(why) == "exit" and scene.transient and not _endless(scene)
-    return refinement.along(scene) if helps else ""
+    return refinement.finer_along_option(scene) if helps else ""
 
 
 def _endless(scene):

@@ -13,7 +13,7 @@ from tehl_taichi.runs.summary import domain_warnings, film_warnings, rim_warning
 from tehl_taichi.scene import yield_stress
 from tehl_taichi.scene.refinement import finer_grid_option, zoom_option
 from tehl_taichi.values.coded_text import Reason, reasons_of
-from tehl_taichi.values.coded_warning import coded_warning, once, with_data
+from tehl_taichi.values.coded_warning import coded_warning, unique, with_data
 from tehl_taichi.values.digits import micrometres
 
 STILL = 0.01  # of the largest plastic strain: a passage that adds less has run in
@@ -25,19 +25,19 @@ CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a mome
 def warnings(store, summary):
     """All warnings of a run, without repetition. store: of the run; summary: its numbers so far."""
     checks = ROUGH_CHECKS if searched(summary.get("fatigue", {})).get("rough") else CHECKS
-    return once([*store.scene.warnings(), *coded_warning(checks, store, summary)])
+    return unique([*store.scene.warnings(), *coded_warning(checks, store, summary)])
 
 
-def reached(store):
+def reached_maxima(store):
     """Largest pressure (Pa) and film temperature (deg C) of a thermal run."""
     return tuple(float(np.max(store.scalar(name))) for name in ("p_max_Pa", "film_max_C"))
 
 
 def beyond_measured(store, summary):
     """Warnings about film pressures and temperatures beyond the measured range of conductivity and heat capacity."""
-    if store.scene.isothermal or not beyond(conduction.LAWS, *reached(store)):
+    if store.scene.isothermal or not beyond(conduction.LAWS, *reached_maxima(store)):
         return []
-    p, T = reached(store)
+    p, T = reached_maxima(store)
     text = (f"the film reaches {p / 1e9:.2f} GPa and {T:.0f} deg C; {' and '.join(conduction.LAWS)} were measured up to "
             f"{conduction.P_MEASURED / 1e9:g} GPa and {conduction.GAMMA_MEASURED:g} deg C; beyond that range they keep their "
             "last values")
@@ -78,7 +78,7 @@ def unknown_errors(store, summary):
         grid = film_warnings.finer_exit(store.scene, why)
         window = zoom_option(store.scene, functools.partial(_zoomed_work, store)) if grid else ""
         more = (f"; try a grid that is finer along x: {grid}" if grid else "") + (f", or {window}" if window else "")
-        yield with_data(f"the error of {few(names)} is not known: {why}{more}", grid, window, numbers=names,
+        yield with_data(f"the error of {few_names(names)} is not known: {why}{more}", grid, window, numbers=names,
                         reason=str(why), reason_code=why.code)
 
 
@@ -88,7 +88,7 @@ def _zoomed_work(store, factor):
     return zoom_need.work(store, factor)
 
 
-def few(names):
+def few_names(names):
     """Text of names, abbreviated if there are many; the warning's data and the error table have all of them."""
     return ", ".join(names) if len(names) <= MANY else f"{', '.join(names[:FIRST])} and {len(names) - FIRST} more numbers"
 
@@ -140,7 +140,7 @@ def yielding(store, summary):
     if found and found["surface"] in steel_bodies(summary):  # `running_in` speaks of these
         return
     if found and found["yields"]:
-        text = (f"the von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place(found)}, more than "
+        text = (f"the von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place_text(found)}, more than "
                 f"{yield_stress.words(found['yield_stress_Pa'])}; {elastic}")
         yield with_data(text, von_mises_Pa=found["max_Pa"], yield_stress_Pa=found["yield_stress_Pa"])
     elif not found and "run_in" not in summary and p > (limit := yield_stress.pressure(store.scene)):
@@ -181,7 +181,7 @@ def _beyond_run_in(scene, zoom):
     yield with_data(text, p_max_Pa=p, zoom_p_max_Pa=now)
 
 
-def place(found, um="um"):
+def place_text(found, um="um"):
     """Text of the place of a von Mises stress."""
     at = f"surface {found['surface']}"
     return f"{micrometres(found['depth_m'])} {um} below {at}" if found["depth_m"] else f"at {at}"

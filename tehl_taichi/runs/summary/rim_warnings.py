@@ -1,7 +1,7 @@
 """Warnings about worst points at the rim of a measured map: the rim may cause them."""
 
 from tehl_taichi.fatigue.pressure_alone import searched
-from tehl_taichi.scene.feature_wording import passing
+from tehl_taichi.scene.feature_wording import feature_word
 from tehl_taichi.scene.scales import Scales
 
 NEAR = 2  # cells of the grid: so near to an edge that a stress is of both its sides
@@ -24,7 +24,7 @@ def _of_point(scene, point, name):
     for f in (f for f in scene.features if f.kind.measured):
         distance, axis = min(zip(f.to_rim(point["x_m"] - f.x, point["y_m"] - f.y), "xy"))
         if -near <= distance <= max(f.taper, near):
-            yield f"{name} lies {_side(f, distance, passing(scene))}; {_advice(f, axis)}"
+            yield f"{name} lies {_side(f, distance, feature_word(scene))}; {_advice(f, axis)}"
 
 
 def _side(f, distance, whose):

@@ -34,7 +34,7 @@ def summarise(store, extra, searches=None):
     scales, zoom = Scales.of(scene), extra.get("zoom", {})
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
            "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
-           **counts(store),
+           **grid_counts(store),
            "hertz": _hertz(scales), **_peclet(scene, scales), "domain": domain_of(scene),
            "left_out": scene.left_out(),
            "steady": _steady(store, extra)}
@@ -78,10 +78,11 @@ def _peclet(scene, scales):
     return {} if scene.isothermal else {"peclet": {name: peclet(body, u, scales) for name, body, u in each}}
 
 
-def so_far(store):
+def unfinished_summary(store):
     """JSON object of a run without a summary: not finished, or still being written."""
     return {"scene": store.scene.name, "version": attributes.text(store.attrs, "version"), "store": str(store.path),
-            "finished": False, "written_by": store.writer, "steps": store.last_step, **_run_in_so_far(store), **counts(store),
+            "finished": False, "written_by": store.writer, "steps": store.last_step, **_run_in_so_far(store),
+            **grid_counts(store),
             "left_out": store.scene.left_out(), "warnings": store.warnings}
 
 
@@ -91,7 +92,7 @@ def _run_in_so_far(store):
     return {"run_in": {"passages": state.passages, "rounds": state.rounds, "done": state.done}} if state else {}
 
 
-def counts(store):
+def grid_counts(store):
     """Counts. grid: computed nodes, nz of them across the film; cells: as in [grid] and --grid.
 
     ny cells are those of the half domain y >= 0 (the whole domain has 2 ny + 1 nodes); 0 without variation along y (one row of
@@ -114,7 +115,7 @@ def _clamps(store):
     if store.scene.isothermal:
         return {}
     held = int(np.nansum(store.scalar("clamped")))
-    return {**beyond(conduction.LAWS, *result_warnings.reached(store)),
+    return {**beyond(conduction.LAWS, *result_warnings.reached_maxima(store)),
             **({"temperatures limited to the allowed range": held} if held else {})}
 
 

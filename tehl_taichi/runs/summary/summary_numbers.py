@@ -10,7 +10,7 @@ FIRST = ("transient", "steady", "fatigue")  # parts whose numbers are meant by a
 BARS = ("error", "unknown", "unknown_codes", "error_parts")  # of a part: not numbers themselves
 
 
-def every(summary):
+def all_numbers(summary):
     """{full name, such as "transient.p_max_Pa": Quantity} of all numbers of a summary."""
     return dict(_numbers(summary, ""))
 
@@ -28,7 +28,7 @@ def _numbers(values, above):
 
 def find(summary, name):
     """Quantity with this name, with or without its part and its unit. Raises UnknownName."""
-    known = every(summary)
+    known = all_numbers(summary)
     fitting = [full for full in known if name in _names(full)]
     if not fitting:
         raise UnknownName(f"{shown(name)} is no number of this run{nearest(name, _short(known))}; it has {', '.join(known)}")

@@ -10,7 +10,7 @@ from tehl_taichi.march import quantities
 from tehl_taichi.march.accuracy.coarse_runs import AREA, CONTACT
 from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.runs.summary import limit_meaning
-from tehl_taichi.scene.feature_wording import between
+from tehl_taichi.scene.feature_wording import range_words
 from tehl_taichi.values.digits import micrometres, with_error
 from tehl_taichi.values.summary_units import nothing_of
 
@@ -259,7 +259,7 @@ def _rows_of_search(f):
     """List of :class:`SummaryRow` of a search: the worst point of the surface, then the worst one below it. If the grid does
     not resolve every pressure, the resolved part comes first, on which the verdict rests.
     """
-    rows = [_of(f, "Fi_max", "Fi_max at the surface", where=_whole(f)),
+    rows = [_of(f, "Fi_max", "Fi_max at the surface", where=_all_moments_text(f)),
             _judged_stress(f, f["criterion"]), *_point_rows(f, _frame(f)),
             _stress("largest principal stress at the surface", f["sigma1_max_Pa"]), _constants_row(f),
             *(SummaryRow(f"from the limit in reversed {way}", f"{f[key] / 1e6:g} MPa")
@@ -303,9 +303,9 @@ def _averaged_rows(f):
                    if deep else [])
 
 
-def _whole(f):
+def _all_moments_text(f):
     """Text after a value of all counted moments, if a part of them has its own row or others are left out."""
-    part = between(f.get("from_x_a", -math.inf), f.get("to_x_a", math.inf)) or "whole passage" * ("resolved" in f)
+    part = range_words(f.get("from_x_a", -math.inf), f.get("to_x_a", math.inf)) or "whole passage" * ("resolved" in f)
     return f", {part}" if part else ""
 
 
@@ -315,14 +315,14 @@ def _resolved_rows(f):
         return []
     part, deep = f["resolved"], f["resolved"].get("below")
     rows = [_of(part, "Fi_max", "Fi_max while resolved", where=f" (to {part['to_x_a']:.2f} a)"),
-            *_placed(part, "while resolved")]
+            *_place_rows(part, "while resolved")]
     if deep:
         rows += [_of(deep, "Fi_max", "below the surface while "
-                                     "resolved", where=_at(deep)), *_placed(deep, "below while resolved")]
+                                     "resolved", where=_at(deep)), *_place_rows(deep, "below while resolved")]
     return [replace(row, part=RESOLVED) for row in rows]
 
 
-def _placed(point, when):
+def _place_rows(point, when):
     """Rows with place and plane of a worst point."""
     return [replace(row, what=f"{row.what}, {when}") for row in _point_rows(point)[:2]]
 
@@ -348,7 +348,7 @@ def _below_rows(f):
     if "below" not in f:
         return []
     deep = f["below"]
-    rows = [_of(deep, "Fi_max", "Fi_max below the surface", where=_at(deep) + _whole(f)),
+    rows = [_of(deep, "Fi_max", "Fi_max below the surface", where=_at(deep) + _all_moments_text(f)),
             _judged_stress(deep, f["criterion"]), *_point_rows(deep, _frame(f)),
             *_local_rows(deep)]
     return [replace(row, part=BELOW) for row in rows]

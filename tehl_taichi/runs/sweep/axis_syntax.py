@@ -61,7 +61,7 @@ class Span:
 def axis_of(text):
     """Axis of one --over: 'key=values', or several with blanks between, which change together. Raises SceneError."""
     pairs = _pairs(text)
-    return axis([key for key, _ in pairs], [parsed(values) for _, values in pairs])
+    return axis([key for key, _ in pairs], [parse(values) for _, values in pairs])
 
 
 def _pairs(text):
@@ -94,7 +94,7 @@ def axis(keys, columns):
     return Axis(tuple(keys), rows)
 
 
-def parsed(text):
+def parse(text):
     """List of values, or Span, of 'a,b,c', 'a:b:n', 'a:b:n:log' or 'a:b'. Raises SceneError.
 
     Numbers may have units; a unit after the last number holds for all.
@@ -130,7 +130,7 @@ def column(values):
     if isinstance(values, (Span, list)):
         return values if isinstance(values, Span) else [plain(value) for value in values]
     if isinstance(values, str):
-        return parsed(values)
+        return parse(values)
     values = plain(values)
     return list(values) if isinstance(values, tuple) else [values]
 
@@ -191,10 +191,10 @@ def _check_range(text, a, b, count, log):
 
 def _spread(a, b, count, log):
     values = np.geomspace(a, b, count) if log else np.linspace(a, b, count)
-    return [_rounded(value, abs(b - a)) for value in values.tolist()]
+    return [_round_value(value, abs(b - a)) for value in values.tolist()]
 
 
-def _rounded(value, length):
+def _round_value(value, length):
     """Rounded value of a range; exactly 0 near 0, because SRR = 5e-17 would be a scene with slip."""
     return 0.0 if abs(value) < 10**-DIGITS * length else float(f"{value:.{DIGITS}g}")
 
@@ -233,7 +233,7 @@ def over_of(texts, sampled=False):
     for text in texts:
         pairs = _pairs(text)
         if sampled and len(pairs) == 1:
-            keys, values = pairs[0][0], parsed(pairs[0][1])
+            keys, values = pairs[0][0], parse(pairs[0][1])
         else:
             found = axis_of(text)
             keys, values = (found.keys[0], [row[0] for row in found.rows]) if len(found.keys) == 1 else (found.keys, found.rows)

@@ -23,7 +23,7 @@ class CaseJob:
     shared: bool = False
 
 
-def work(job, progress=None):
+def run_case(job, progress=None):
     """Run a case: {"status", "reason", "summary", "seconds"}; errors of the disk or the machine give a failed case.
 
     progress: listener of the run, a :class:`tehl_taichi.runs.progress.Progress`.
@@ -43,7 +43,7 @@ def _summary(job, progress):
     from tehl_taichi.runs.sweep import warm_cache
 
     if job.shared:
-        warm_cache.once(job.scene)
+        warm_cache.ensure_kernels(job.scene)
     if job.store is None:
         with tempfile.TemporaryDirectory(prefix="tehl-") as folder:
             return {**_run(job, Path(folder) / "case.zarr", progress), "store": None}
@@ -54,11 +54,11 @@ def _run(job, path, progress):
     """Summary of the run in the store at `path`: started, resumed, or already finished."""
     from tehl_taichi.runs import single_run
 
-    _free(path)
-    return single_run.completed(job.scene, path, threads=job.threads, progress=progress).summary
+    _take_over_lock(path)
+    return single_run.run_or_resume(job.scene, path, threads=job.threads, progress=progress).summary
 
 
-def _free(path):
+def _take_over_lock(path):
     """Take over the lock of a worker on another machine; the worker is gone, otherwise it would still have the case."""
     from tehl_taichi.disk.drafts import PART, staging_path
     from tehl_taichi.disk.links import is_folder

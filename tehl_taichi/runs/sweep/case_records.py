@@ -37,7 +37,7 @@ def mend(folder):
     path = folder / FILE
     content = files.content(path, MOST) if path.exists() else b""
     if content and not content.endswith(b"\n"):
-        files.cut(path, content.rfind(b"\n") + 1)
+        files.truncate(path, content.rfind(b"\n") + 1)
 
 
 def _record(line):

@@ -16,7 +16,7 @@ _lane: list[ThreadPoolExecutor] = []
 _guard = threading.Lock()
 
 
-def working():
+def is_worker():
     """Whether this process is a worker of a study."""
     return bool(_lane)
 

@@ -19,11 +19,11 @@ def latin_hypercube(columns, samples, seed=0, whole=()):
     drawn = []
     for key, values in columns.items():
         shares = (rng.permutation(samples) + rng.random(samples)) / samples
-        drawn.append([_picked(values, share, key in whole) for share in shares.tolist()])
+        drawn.append([_choose(values, share, key in whole) for share in shares.tolist()])
     return Axis(tuple(columns), tuple(zip(*drawn)))
 
 
-def _picked(values, share, whole):
+def _choose(values, share, whole):
     if not isinstance(values, Span):
         return values[int(share * len(values))]
     value = float(f"{values.at(share):.{DIGITS}g}")

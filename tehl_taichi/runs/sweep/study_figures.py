@@ -11,7 +11,7 @@ from tehl_taichi.runs.sweep.study_labels import column_name, key_name, of_column
 from tehl_taichi.runs.sweep.summary_columns import error_of
 from tehl_taichi.values.checks import nearest
 from tehl_taichi.view.figures import palette
-from tehl_taichi.view.figures.figure_style import FigureStyle, drawing
+from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
 from tehl_taichi.view.figures.map_panels import bar
 
 # drawn by default: the first of each line that the study has
@@ -80,12 +80,12 @@ def lines(page, study, name):
     values, errors = curve_rows(study, values), curve_rows(study, errors)
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
     first, *others = curve_keys(study)
-    x, x_label, ticks = along(study, first)
-    second = along(study, others[0]) if others else None
-    colours = drawing().colormaps[palette.RESULT](np.linspace(0.0, 0.9, len(values)))
+    x, x_label, ticks = axis_values(study, first)
+    second = axis_values(study, others[0]) if others else None
+    colours = import_matplotlib().colormaps[palette.RESULT](np.linspace(0.0, 0.9, len(values)))
     for n, (row, bars) in enumerate(zip(values, errors)):
         ax.errorbar(x, row, bars, fmt="o-", color=colours[n], label=second and second[2][n], **palette.BARS)
-        _hollow(ax, x, row, bars)
+        _draw_unknown_errors(ax, x, row, bars)
     if second:
         page.legend(figure, title=second[1])
     _dress(ax, x_label, x, ticks, numeric(study, first))
@@ -104,7 +104,7 @@ def heat_map(page, study, name):
     image = ax.imshow(values, origin="lower", aspect="auto", cmap=palette.RESULT)
     bar(figure, image, ax, label)
     for axis, key, at in zip("xy", study.plan.keys, (ax.xaxis, ax.yaxis)):
-        _, key_label, ticks = along(study, key)
+        _, key_label, ticks = axis_values(study, key)
         shown = range(0, len(ticks), -(-len(ticks) // (TICKS // 2 if page.narrow else TICKS)))
         at.set_ticks(list(shown), [ticks[n] for n in shown])
         ax.set(**{f"{axis}label": key_label})
@@ -134,9 +134,9 @@ def points(page, study, name):
         if key is None:
             ax.set_visible(False)
             continue
-        x, x_label, ticks = along(study, key, per_case=True)
+        x, x_label, ticks = axis_values(study, key, per_case=True)
         ax.errorbar(x, values, errors, fmt="o", alpha=0.7, **palette.BARS)
-        _hollow(ax, x, values, errors)
+        _draw_unknown_errors(ax, x, values, errors)
         _dress(ax, x_label, x, ticks, numeric(study, key))
         if ax.get_xscale() == "linear" and numeric(study, key):
             ax.locator_params(axis="x", nbins=5)
@@ -151,11 +151,11 @@ def index_over_film(page, study):
     film, film_error, film_label = with_errors(study, FILM)
     Fi, Fi_error, _ = with_errors(study, INDEX)
     key = study.plan.keys[0]
-    colour, colour_label, ticks = along(study, key, per_case=True)
+    colour, colour_label, ticks = axis_values(study, key, per_case=True)
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
     ax.errorbar(film, Fi, Fi_error, film_error, fmt="none", ecolor=palette.GREY, **palette.BARS)
     drawn = ax.scatter(film, Fi, c=colour, cmap=palette.RESULT, s=0.3 * page.text**2, zorder=3)
-    _hollow(ax, film, Fi, Fi_error)
+    _draw_unknown_errors(ax, film, Fi, Fi_error)
     scale = bar(figure, drawn, ax, colour_label)
     if not numeric(study, key):
         places = dict(zip(colour.tolist(), ticks))
@@ -167,7 +167,7 @@ def index_over_film(page, study):
     return figure
 
 
-def _hollow(ax, x, y, errors):
+def _draw_unknown_errors(ax, x, y, errors):
     """Draw points with unknown error as hollow symbols."""
     unknown = ~np.isfinite(errors)
     ax.plot(x[unknown], y[unknown], ".", color="white", markersize=3, zorder=4)
@@ -197,7 +197,7 @@ def numeric(study, key):
     return all_numbers(study.plan.coordinate(key)[1])
 
 
-def along(study, key, per_case=False):
+def axis_values(study, key, per_case=False):
     """(numbers along a key, its label with unit, texts of the numbers); words are at 0, 1, 2 ..."""
     values = [study.plan.changes(n)[key] for n in range(len(study))] if per_case else study.plan.coordinate(key)[1]
     if not numeric(study, key):

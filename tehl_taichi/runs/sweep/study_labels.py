@@ -4,7 +4,7 @@ from tehl_taichi.march import quantities
 from tehl_taichi.runs.sweep.plan import unit
 from tehl_taichi.runs.sweep.summary_columns import unit_of
 from tehl_taichi.scene.aliases import full_name
-from tehl_taichi.values.digits import fitting
+from tehl_taichi.values.digits import printed_unit
 
 # of keys that are swept often; others keep their name
 KEYS = {"operation.srr": "slide-to-roll ratio", "operation.u_m": "mean speed", "operation.temperature": "inlet temperature",
@@ -39,24 +39,24 @@ def with_unit(text, unit_):
     return f"{text} ({shown})" if shown else text
 
 
-def parted(label):
+def name_and_unit(label):
     """(name, unit) of a label, such as 'load', 'N/mm' of 'load (N/mm)'; unit "" without one."""
     name, bracket, shown = label.removesuffix(")").rpartition(" (")
     return (name, shown) if bracket and label.endswith(")") else (label, "")
 
 
-def valued(label, word):
+def label_with_value(label, word):
     """Text such as 'load 3 N/mm' from the label 'load (N/mm)' and the text of a value."""
-    return " ".join(filter(None, (parted(label)[0], word, parted(label)[1])))
+    return " ".join(filter(None, (name_and_unit(label)[0], word, name_and_unit(label)[1])))
 
 
 def of_key(scene, key, size):
     """(factor, label) of a key whose SI values are about this size."""
-    factor, shown = fitting(unit(scene, key), size)
+    factor, shown = printed_unit(unit(scene, key), size)
     return factor, with_unit(key_name(key), shown)
 
 
 def of_column(name, size):
     """(factor, label) of a column of the table whose SI values are about this size."""
-    factor, shown = fitting(unit_of(name), size)
+    factor, shown = printed_unit(unit_of(name), size)
     return factor, with_unit(column_name(name), shown)

@@ -18,7 +18,7 @@ import zarr
 
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
-from tehl_taichi.disk.files import blamed, json_of, reason, replace
+from tehl_taichi.disk.files import disk_errors, json_of, reason, replace
 from tehl_taichi.disk.locked_folder import LockedFolder, locked_folder
 from tehl_taichi.disk.user_files import check_outside
 from tehl_taichi.errors import SceneError, StoreError, extra
@@ -26,7 +26,7 @@ from tehl_taichi.runs.sweep import case_records as records
 from tehl_taichi.runs.sweep import summary_columns
 from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
 from tehl_taichi.runs.sweep.plan import ONE, Plan, unit
-from tehl_taichi.store.integrity import ROOT, lacking
+from tehl_taichi.store.integrity import ROOT, missing_choice
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.escape import cell
 
@@ -78,7 +78,7 @@ class Study(LockedFolder):
         try:
             return cls(path, Plan.from_text(attrs[PLAN]))
         except (ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
-            if fault := lacking(_scene_text(attrs[PLAN])):
+            if fault := missing_choice(_scene_text(attrs[PLAN])):
                 raise StoreError(f"{path} needs {fault}") from None
             fault = error if isinstance(error, SceneError) else f"{shown(attrs[PLAN])} is not written by tehl"
             raise StoreError(f"{path} is damaged: its plan cannot be read ({fault})") from None
@@ -98,7 +98,7 @@ class Study(LockedFolder):
                              f"mixed. Choose another --out, or use version {version}")
         if attrs is not None and not plan.matches(attrs[PLAN]):
             raise StoreError(f"{path} holds another study; choose another --out or remove it")
-        with blamed(path, "cannot write to"):
+        with disk_errors(path, "cannot write to"):
             path.mkdir(parents=True, exist_ok=True)
         return locked_folder(path, lambda lock: cls._locked(path, plan, lock))
 

@@ -29,13 +29,13 @@ def sweep(scene: Scene | str | PathLike, over: Mapping, path: str | PathLike | N
 def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=None, keep="stores", progress=None, say_line=None,
         work=None):
     """Run the cases of `plan` without a result in its study at `path`; see :func:`sweep`. work: function that runs a
-    :class:`tehl_taichi.runs.sweep.case.CaseJob` (default: :func:`tehl_taichi.runs.sweep.case.work`).
+    :class:`tehl_taichi.runs.sweep.case.CaseJob` (default: :func:`tehl_taichi.runs.sweep.case.run_case`).
     """
     from tehl_taichi.runs.sweep import case, pool
     from tehl_taichi.runs.sweep.study_table import Study
     from tehl_taichi.store.store_draft import check_room
 
-    workers, threads = checked(workers, threads_per_worker, scheduler, keep)
+    workers, threads = check_settings(workers, threads_per_worker, scheduler, keep)
     refused = plan.refused()
     path = path_of("path", path) if path is not None else default_path(plan)
     if keep == "stores":
@@ -47,13 +47,13 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
         if progress:
             progress(study, None)
         jobs = (_job(study, number, keep, threads, shared=workers != 1) for number in todo)
-        found = pool.results(work or case.work, jobs, workers=workers, scheduler=scheduler, say_line=say_line)
+        found = pool.results(work or case.run_case, jobs, workers=workers, scheduler=scheduler, say_line=say_line)
         for place, answer in found if todo else ():
             _keep(study, todo[place], answer, keep, progress)
     return study
 
 
-def checked(workers=None, threads_per_worker=None, scheduler=None, keep="stores", connect=True):
+def check_settings(workers=None, threads_per_worker=None, scheduler=None, keep="stores", connect=True):
     """Check the settings of a sweep; returns (processes, threads of each), see :func:`tehl_taichi.runs.sweep.pool.sizes`.
     Raises SceneError and RuntimeUnavailable. connect: also check that the scheduler answers.
     """

@@ -19,7 +19,7 @@ from tehl_taichi.errors import Error
 STEPS = 3  # the fewest with a fatigue search
 
 
-def once(scene):
+def ensure_kernels(scene):
     """Make sure that the kernels of such a scene are in the cache; waits if another process is compiling them."""
     from tehl_taichi.engine.runtime import preferred_cache
 
@@ -28,7 +28,7 @@ def once(scene):
         return
     with contextlib.suppress(OSError):  # a read-only folder has no new kernels
         stamp.parent.mkdir(parents=True, exist_ok=True)
-        with os.fdopen(files.opened(stamp.with_suffix(".lock"), os.O_RDWR | os.O_CREAT), "r+b") as lock:
+        with os.fdopen(files.open_plain(stamp.with_suffix(".lock"), os.O_RDWR | os.O_CREAT), "r+b") as lock:
             _wait_for(lock)
             if not stamp.exists():
                 _compile(scene)

@@ -5,7 +5,7 @@ bars.
 import numpy as np
 
 from tehl_taichi.runs.traction.traction_rows import axis
-from tehl_taichi.values.digits import fitting
+from tehl_taichi.values.digits import printed_unit
 from tehl_taichi.view.figures import palette
 
 PANELS = (("friction coefficient", "friction_coefficient", ""), ("central film", "h_c_m", "m"),
@@ -26,7 +26,7 @@ def drawn(page, found):
 
 def _panel(ax, found, label, key, unit):
     largest = max((abs(row[key]) for row in found.rows if row[key] is not None), default=0.0)
-    factor, shown = fitting(unit, largest)
+    factor, shown = printed_unit(unit, largest)
     for (name, rows), colour in zip(found.curves.items(), [*palette.LINES] * len(found.rows)):
         x, y, error = series(found, rows, key)
         bars = error * factor if np.isfinite(error).any() else None
@@ -57,7 +57,7 @@ def _evenly_in_logarithm(x):
 def scale(found):
     """(factor, unit) of the axis of a Traction."""
     name, _, unit = axis(found.study.plan, found.across)
-    return fitting(unit, max(abs(row[name]) for row in found.rows))
+    return printed_unit(unit, max(abs(row[name]) for row in found.rows))
 
 
 def series(found, rows, key):

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from tehl_taichi.runs.flank.flank_columns import dig, error_of
-from tehl_taichi.values.digits import fitting
+from tehl_taichi.runs.flank.flank_columns import error_of, value_at
+from tehl_taichi.values.digits import printed_unit
 
 TEMPERATURE, SPEED, SRR, LOAD, PRESSURE = "temperature", "speed", "srr", "load", "hertz_pressure"
 ALONG = (SRR, SPEED, LOAD, PRESSURE, TEMPERATURE)  # of keys with several values the first is that along the curves
@@ -55,7 +55,7 @@ class Traction:
         own = {"srr": float(changes.get(SRR, o.srr)), "temperature_C": float(changes.get(TEMPERATURE, o.temperature)),
                "u_m_m_s": float(changes.get(SPEED, o.u_m)),
                **{axis(plan, key)[0]: float(changes[key]) for key in (LOAD, PRESSURE) if key in changes}}
-        results = {key: dig(record["summary"], "steady", key) for key in RESULTS}
+        results = {key: value_at(record["summary"], "steady", key) for key in RESULTS}
         error = {key: error_of(record["summary"], "steady", key) for key in RESULTS}
         return {**own, **results, "error": error, "converged": record["status"] == "converged", "reason": record["reason"]}
 
@@ -84,7 +84,7 @@ class Traction:
     def _words(self, key, row):
         """Legend text of a key's value in a row."""
         name, _, unit = axis(self.study.plan, key)
-        factor, shown = fitting(unit, abs(row[name]))
+        factor, shown = printed_unit(unit, abs(row[name]))
         return f"SRR {row['srr']:g}" if key == SRR else f"{row[name] * factor:g} {shown}"
 
     @property

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.view.figures.line_figures import headed, start_style
+from tehl_taichi.view.figures.line_figures import set_title, start_style
 from tehl_taichi.view.figures.map_panels import mirrored
 
 
@@ -24,5 +24,5 @@ def centreline_y(page, moments):
     for ax in (top, low):
         ax.grid()
     page.legend(figure)
-    headed(page, figure, moments, "along y, through the largest pressure of each moment" if max(shown) else "along y", [])
+    set_title(page, figure, moments, "along y, through the largest pressure of each moment" if max(shown) else "along y", [])
     return figure

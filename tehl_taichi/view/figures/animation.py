@@ -13,7 +13,7 @@ from tehl_taichi.disk import user_files
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.values.checks import choice, integer
 from tehl_taichi.values.path_arguments import folder_of
-from tehl_taichi.view.figures.figure_style import FigureStyle, drawing
+from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
 from tehl_taichi.view.figures.frames import SHOWN, Frames
 from tehl_taichi.view.figures.moments import Moments
 
@@ -36,7 +36,7 @@ def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, 
     page, store = FigureStyle(dpi=dpi, width=width), Store.open(folder_of(source))
     path, format = _file(store, out, format, force)
     _check(store, shown)
-    drawing()
+    import_matplotlib()
     write = {"gif": _gif, "mp4": _mp4}[format]
     tool = _ffmpeg() if format == "mp4" else None
     entries = np.unique(np.linspace(0, store.steps - 1, frames).round().astype(int)).tolist()
@@ -82,7 +82,7 @@ def _gif(path, frames, fps, progress, _):
     from PIL import Image
 
     some = [frames.entries[n] for n in np.linspace(0, len(frames.entries) - 1, SAMPLES).astype(int)]
-    colours = _kept_white(Image.fromarray(np.concatenate([frames.picture(n) for n in some])).quantize(256))
+    colours = _with_white(Image.fromarray(np.concatenate([frames.picture(n) for n in some])).quantize(256))
     plain = Image.Dither.NONE
     pictures = (Image.fromarray(picture).quantize(palette=colours, dither=plain)
                 for picture in _with_progress(frames, progress))
@@ -90,7 +90,7 @@ def _gif(path, frames, fps, progress, _):
                         comment=user_files.PROGRAM.encode())
 
 
-def _kept_white(image):
+def _with_white(image):
     """Picture with an exactly white page: averaged to 256 colours, white is slightly off."""
     colours = np.array(image.getpalette()).reshape(-1, 3)
     colours[(colours >= NEARLY).all(axis=1)] = 255
@@ -114,7 +114,7 @@ def _mp4(path, frames, fps, progress, ffmpeg):
     command = [ffmpeg, "-y", "-loglevel", "error", *raw.split(), *film.split(), str(path)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True) as process:
         try:
-            output = _fed(process, _with_progress(frames, progress))
+            output = _send_pictures(process, _with_progress(frames, progress))
         except BaseException:
             process.kill()
             raise
@@ -122,7 +122,7 @@ def _mp4(path, frames, fps, progress, ffmpeg):
         raise StoreError(f"ffmpeg failed: {' '.join(output.decode(errors='replace').split()) or process.returncode}")
 
 
-def _fed(process, pictures):
+def _send_pictures(process, pictures):
     """Send the pictures to a process; returns its error output. The process may end before it has read all."""
     try:
         for picture in pictures:

@@ -15,7 +15,7 @@ def curves(result):
     return out
 
 
-def shown(result):
+def has_distribution(result):
     """Whether the run has rough surfaces to draw."""
     return bool(result.numbers.get("rough")) and bool(curves(result))
 

@@ -14,7 +14,7 @@ from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.digits import micrometres
 from tehl_taichi.view.figures import distribution_figure, palette
 from tehl_taichi.view.figures.index_text import error_of, index_text, largest, mpa
-from tehl_taichi.view.figures.limit_line import crossed, explained, handle, limit_line
+from tehl_taichi.view.figures.limit_line import crosses_limit, handle, limit_line, line_words
 from tehl_taichi.view.figures.map_panels import bar, mirrored, shade
 from tehl_taichi.view.figures.search_data import beside_worst
 
@@ -67,7 +67,7 @@ def all_figures(page, found):
     """
     layers = [_layers(one) for one in found.each]
     figures = {"fatigue": lambda: index_figure(page, found, layers)}
-    if distribution_figure.shown(found.result):
+    if distribution_figure.has_distribution(found.result):
         figures["fatigue_distribution"] = partial(distribution_figure.distribution_figure, page, found)
     for one, more in zip(found.each, ("", "_whole")):
         if one.result.findley_stress_under_row is not None:
@@ -134,7 +134,7 @@ def index_figure(page, found, layers):
         ax.set_xlabel(found.along + FLOW * (columns == 1))
     for ax in axes[:, 0]:
         ax.set_ylabel("y (µm)")
-    lines = explained(any(layer.traced for layer in shown), any(crossed(layer.Fi) for layer in shown))
+    lines = line_words(any(layer.traced for layer in shown), any(crosses_limit(layer.Fi) for layer in shown))
     page.title(figure, replace(found, when="").constants + lines)
     return figure
 
@@ -186,7 +186,7 @@ def depth_figure(page, found):
     _over_depth(over, found, Fi, depth)
     for ax in (section, over):  # each with its own numbers
         ax.set(ylabel="below the surface (µm)", ylim=(depth[-1], 0))
-    page.legend(figure, over.get_legend_handles_labels()[0] + ([handle()] if crossed(Fi) else []))
+    page.legend(figure, over.get_legend_handles_labels()[0] + ([handle()] if crosses_limit(Fi) else []))
     page.title(figure, found.constants)
     return figure
 

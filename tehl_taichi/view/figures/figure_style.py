@@ -108,7 +108,7 @@ class FigureStyle:
     def style(self):
         """Context manager in which figures are drawn and saved. Raises StoreError if matplotlib is not installed."""
         small, line = 0.9 * self.text, 0.14 * self.text
-        return drawing().rc_context({
+        return import_matplotlib().rc_context({
             "text.parse_math": False, "text.usetex": False,  # a name with $ in it is a name
             "font.size": self.text, "axes.titlesize": self.text, "axes.labelsize": self.text,
             "figure.titlesize": 1.1 * self.text,
@@ -121,12 +121,12 @@ class FigureStyle:
     def write(self, folder, figures):
         """Write {name: function that draws the figure} into `folder`; returns the paths. Raises StoreError."""
         paths = self.check_all(folder, figures)
-        made(folder)
+        make_folder(folder)
         return [self.save(draw, path) for draw, path in zip(figures.values(), paths)]
 
     def check_all(self, folder, names):
         """Paths of figures with these names in `folder`. Raises StoreError if they cannot be drawn or may not be written."""
-        drawing()
+        import_matplotlib()
         links.refuse_itself(folder)
         check_folder(folder)
         paths = [Path(folder) / f"{name}.{self.format}" for name in names]
@@ -153,7 +153,7 @@ class FigureStyle:
             return self._finished(draw)
 
     def _finished(self, draw):
-        return self.fitted(spelled(draw()))
+        return self.fitted(spell_letters(draw()))
 
     def fitted(self, figure):
         """The figure without the empty height that panels with equal scales leave."""
@@ -177,7 +177,7 @@ def _cycle():
     return cycler(color=palette.LINES)
 
 
-def drawing():
+def import_matplotlib():
     """The matplotlib module. Raises StoreError if it is not installed."""
     try:
         import matplotlib
@@ -186,7 +186,7 @@ def drawing():
     return matplotlib
 
 
-def spelled(figure):
+def spell_letters(figure):
     """The figure with non-printing letters (of file names) spelled."""
     from matplotlib.text import Text
 
@@ -208,7 +208,7 @@ def check_folder(folder):
         raise StoreError(f"cannot put figures into {folder}: {there} is not a folder; choose another one")
 
 
-def made(folder):
+def make_folder(folder):
     """Make the folder if necessary; returns its path. Raises StoreError."""
     try:
         Path(folder).mkdir(parents=True, exist_ok=True)

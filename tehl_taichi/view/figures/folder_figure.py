@@ -3,14 +3,14 @@
 import os
 
 from tehl_taichi.disk import links
-from tehl_taichi.view.figures.figure_style import drawing, made
+from tehl_taichi.view.figures.figure_style import import_matplotlib, make_folder
 
 
 def check(folder, page, name):
     """Raise StoreError if a figure could not be drawn, or not be written as `name` into the folder of future results (None: a
     new one).
     """
-    drawing()
+    import_matplotlib()
     if folder is not None and os.path.lexists(folder):
         links.refuse(folder)
         page.check(folder / f"{name}.{page.format}", folder)
@@ -24,5 +24,5 @@ def write(folder, path, page, draw):
     if os.path.realpath(path.parent) == os.path.realpath(folder):
         links.refuse(path.parent)
     page.check(path, folder)
-    made(path.parent)
+    make_folder(path.parent)
     return page.save(lambda: draw(page), path, of=folder)

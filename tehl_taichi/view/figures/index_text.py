@@ -17,7 +17,7 @@ def index_text(Fi, error=None):
     return f"{Fi:.{min(max(decimals(error), 0), 4) if known else 2}f}"
 
 
-def resolved(found, whose="feature"):
+def resolved_words(found, whose="feature"):
     """Text of the moments in the resolved part of a search; found: its summary; whose: text of the position."""
     return f"{PART} ({whose} up to {found['to_x_a']:.2f} a)"
 

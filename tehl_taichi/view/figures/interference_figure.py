@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures.line_figures import ALONG
-from tehl_taichi.view.figures.map_panels import EDGE, half_axis, lies, mirrored
+from tehl_taichi.view.figures.map_panels import EDGE, half_axis, is_turned, mirrored
 
 FILMS = 512  # of the scale
 FINE = 1200  # points of the picture along its longer side: the film is smooth, its fringes are finer than the grid
@@ -19,7 +19,7 @@ def interference(page, moments, light):
     inlet = store.scene.operation.temperature
     index = light.index_at(store.scene.oil.density_ratio(f["pressure"], f.get("temperature_mid", inlet), inlet))
     x, y, path = _picture(moments, index * f["film"])
-    figure, (ax, scale) = _panels(page, np.ptp(y) / np.ptp(x), lies(store.scene))
+    figure, (ax, scale) = _panels(page, np.ptp(y) / np.ptp(x), is_turned(store.scene))
     _draw(ax, store.scene, x, y, light.colours(path))
     middle = float(index[int(np.argmin(np.abs(moments.x))), moments.row])
     _draw_scale(scale, light, middle, moments.film_top([n]))
@@ -32,7 +32,7 @@ def _picture(moments, path):
     left, right = moments.window
     y, path = mirrored(moments.store.y / moments.a, path)
     s = Scales.of(moments.store.scene)
-    side = min(EDGE * s.b / s.a, y[-1]) if lies(moments.store.scene) else y[-1]
+    side = min(EDGE * s.b / s.a, y[-1]) if is_turned(moments.store.scene) else y[-1]
     per_a = FINE / max(right - left, 2 * side)
     x_fine, y_fine = (np.linspace(*ends, int(np.ptp(ends) * per_a)) for ends in ((left, right), (max(-side, y[0]), side)))
     rows = np.array([np.interp(x_fine, moments.x, column) for column in path.T])
@@ -50,7 +50,7 @@ def _panels(page, tall, lying):
 def _draw(ax, scene, x, y, colours):
     """Draw the picture; a wide ellipse is turned, as in other maps."""
     across = f"y / a{half_axis(scene)}"
-    if lies(scene):
+    if is_turned(scene):
         ax.imshow(colours, extent=(y[0], y[-1], x[-1], x[0]), interpolation="bilinear")
         ax.set(xlabel=f"{across}, flow downwards", ylabel="x / a")
     else:

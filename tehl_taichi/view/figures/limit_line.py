@@ -6,14 +6,14 @@ SAID = "Fi = 1"
 TRACE = "trace of the critical plane (at 0° it lies in the surface)"
 
 
-def crossed(Fi):
+def crosses_limit(Fi):
     """Whether a map of the index crosses the fatigue limit."""
     return bool(Fi.min() < 1 < Fi.max())
 
 
 def limit_line(ax, x, y, Fi):
     """Draw Fi (x, y) = 1 if the map crosses it: white with a black rim, visible on every colour."""
-    if crossed(Fi):
+    if crosses_limit(Fi):
         ax.contour(x, y, Fi.T, [1.0], colors=[palette.LIMIT], linewidths=[_width()], path_effects=_rim())
 
 
@@ -36,7 +36,7 @@ def handle():
     return Line2D([], [], color=palette.LIMIT, lw=_width(), path_effects=_rim(), label=SAID)
 
 
-def explained(traced, limited):
+def line_words(traced, limited):
     """Text about the lines on maps; traced, limited: whether there are such lines."""
     parts = ([f"blue line: {TRACE}"] if traced else []) + ([f"white line: {SAID}"] if limited else [])
     return f"; {', '.join(parts)}" if parts else ""

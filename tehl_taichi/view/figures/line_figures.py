@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.scene.feature_wording import carriers, passing
+from tehl_taichi.scene.feature_wording import carriers, feature_word
 from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.zoom_lines import ZoomLines
 
@@ -15,10 +15,10 @@ ACROSS = (-1.0, -0.5, 0.0, 0.5, 1.0)  # x / a at which profiles are drawn
 def carrier(scene):
     """Text of the surface that carries the passing feature; "" without a passage."""
     verb = "carry" if all(surface.features for surface in scene.surfaces) else "carries"
-    return f"{carriers(scene)} {verb} the {passing(scene)}" if scene.transient else ""
+    return f"{carriers(scene)} {verb} the {feature_word(scene)}" if scene.transient else ""
 
 
-def headed(page, figure, moments, what, shown, more=""):
+def set_title(page, figure, moments, what, shown, more=""):
     """Set the title: scene, moment if there is one, then `more`."""
     alone = f", {moments.says(shown[0])}" if len(shown) == 1 else ""
     page.title(figure, f"{moments.store.scene.name}: {what}{alone}{'; ' * bool(more)}{more}")
@@ -48,7 +48,7 @@ def centreline(page, moments):
         ax.grid()
     if len(shown) > 1:
         page.legend(figure)
-    headed(page, figure, moments, moments.along, list(shown), "thick: zoom window" * zoomed)
+    set_title(page, figure, moments, moments.along, list(shown), "thick: zoom window" * zoomed)
     return figure
 
 
@@ -69,7 +69,7 @@ def temperature(page, moments):
     when = [Line2D([], [], color=colour, label=label) for colour, label in shown.values()]
     kinds = [Line2D([], [], color=palette.BLACK, ls=style, label=text) for _, text, style in SURFACES]
     page.legend(figure, (when if len(shown) > 1 else []) + kinds)
-    headed(page, figure, moments, f"temperatures {moments.along}", list(shown), carrier(store.scene))
+    set_title(page, figure, moments, f"temperatures {moments.along}", list(shown), carrier(store.scene))
     return figure
 
 
@@ -83,5 +83,6 @@ def profiles(page, moments):
     ax.set(xlabel="temperature (°C)", ylabel="z / h (0: surface a, 1: surface b)")
     ax.grid()
     page.legend(figure)
-    headed(page, figure, moments, "across the film" + ("" if moments.half else f" {moments.along}"), [n], carrier(store.scene))
+    what = "across the film" + ("" if moments.half else f" {moments.along}")
+    set_title(page, figure, moments, what, [n], carrier(store.scene))
     return figure

@@ -41,7 +41,7 @@ def bar(figure, image, axes, label, beside=False):
                            aspect=THIN * np.size(axes))
 
 
-def lies(scene):
+def is_turned(scene):
     """Whether maps of this scene are turned."""
     s = Scales.of(scene)
     return scene.contact.kind == "elliptic" and s.b > WIDE * s.a
@@ -55,7 +55,7 @@ def half_axis(scene):
 
 def panels(page, moments, count):
     """The :class:`Panels` for `count` maps of a moment."""
-    return _on_its_side(page, moments, count) if lies(moments.store.scene) else _upright(page, moments, count)
+    return _on_its_side(page, moments, count) if is_turned(moments.store.scene) else _upright(page, moments, count)
 
 
 @dataclass(frozen=True)

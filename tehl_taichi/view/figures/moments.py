@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.feature_wording import where
+from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.coerce import plain
@@ -143,7 +143,7 @@ class Moments:
         """Description of entry n."""
         if n == 0:
             return "steady start" if self.store.steps > 1 else "steady"
-        return f"{where(self.store.scene)} at {self._position(n)}"
+        return f"{position_word(self.store.scene)} at {self._position(n)}"
 
     def _position(self, n):
         return f"{self.moved[n - 1]:+.2f} a".replace("-0.00", "+0.00")

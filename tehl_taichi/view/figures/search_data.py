@@ -7,9 +7,9 @@ import numpy as np
 
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.fatigue.search_result import SearchResult
-from tehl_taichi.scene.feature_wording import from_centre, passing, where
+from tehl_taichi.scene.feature_wording import feature_word, from_centre, position_word
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.view.figures.index_text import REST, resolved
+from tehl_taichi.view.figures.index_text import REST, resolved_words
 
 
 @dataclass(frozen=True)
@@ -33,9 +33,10 @@ class DrawnSearch:
         """Data of a search of a scene, with its resolved part."""
         body = f", body {result.numbers['surface']}" if result.other else ""
         name = scene.name + body + ", pressure alone" * bool(why_none(result.summary))
-        a, along, whose = Scales.of(scene).a, from_centre(scene, result.numbers.get("carries_feature", True)), passing(scene)
+        along = from_centre(scene, result.numbers.get("carries_feature", True))
+        a, whose = Scales.of(scene).a, feature_word(scene)
         known = result.part
-        part = cls(name, known, a, along, depth, whose, when=resolved(known.summary, where(scene))
+        part = cls(name, known, a, along, depth, whose, when=resolved_words(known.summary, position_word(scene))
                    ) if known and known.Fi is not None else None
         return cls(name, result, a, along, depth, whose, part, REST if part else "")
 

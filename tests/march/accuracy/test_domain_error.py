@@ -190,7 +190,7 @@ def test_temperatures_settle_beside_the_border_of_their_film(monkeypatch):
         missed.append(np.abs(border.beyond() - border.now()).max() / border.q[-1])
         return agreed(solver, border, report)
 
-    monkeypatch.setattr(starts, "agreed", seen)
+    monkeypatch.setattr(starts, "iterate_border", seen)
     shot = steady(scene("smooth-line").replace(**{**THICK, "thermal.on": True, "srr": -0.5, "grid.nx": 64, "grid.x_min": -2.5}))
     assert shot.scalars["residual"] < 1e-6 and len(missed) == 2 and max(missed) < 2e-3
 

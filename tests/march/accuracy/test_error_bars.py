@@ -48,7 +48,8 @@ def test_no_bar_is_narrower_than_what_the_iterations_may_have_left():
     assert bar([GridReading(100.0001), GridReading(100.0, settled=0.005)])[0] == pytest.approx(0.1)
     same = [GridReading(100.0002), GridReading(100.0001), GridReading(100.0, settled=0.005)]
     assert bar(same)[0] == 0.005 and bar(same[:2] + [GridReading(100.0)])[0] < 3e-4
-    assert readings.hottest(120.0, scene("gear")) == GridReading(120.0, settled=0.1 * scene("gear").thermal.tolerance)
+    expected = GridReading(120.0, settled=0.1 * scene("gear").thermal.tolerance)
+    assert readings.temperature_reading(120.0, scene("gear")) == expected
 
 
 def test_rounding_on_every_grid_is_nothing_with_a_bar_of_nothing():
@@ -138,10 +139,10 @@ def test_parts_of_a_passage_are_the_same_on_every_grid():
 
 
 def test_an_index_at_the_shallowest_depth_is_settled_by_no_grid():
-    shallow = coarse_runs._doubted(GridReading(1.8, doubt=coarse_runs.SHALLOW), "", (2e9,))
+    shallow = coarse_runs._with_doubt(GridReading(1.8, doubt=coarse_runs.SHALLOW), "", (2e9,))
     assert (shallow.doubt, shallow.course) == (coarse_runs.SHALLOW, ())
-    found = coarse_runs._doubted(GridReading(1.8), NARROW, (2e9,))
-    assert (found.doubt, found.course) == (NARROW, (2e9,)) and coarse_runs._doubted(GridReading(1.8), "", (2e9,)).course
+    found = coarse_runs._with_doubt(GridReading(1.8), NARROW, (2e9,))
+    assert (found.doubt, found.course) == (NARROW, (2e9,)) and coarse_runs._with_doubt(GridReading(1.8), "", (2e9,)).course
 
 
 def test_a_film_whose_bar_would_reach_zero_has_none():
@@ -160,7 +161,7 @@ def test_a_film_on_the_floor_is_not_known():
     def least(h):
         film = np.full((9, 5), 4e-7)
         film[4, 2] = h
-        return readings.lowest(SimpleNamespace(fields={"film": film}, x=np.arange(9) * 1e-5, feature_x=0.0), gear)
+        return readings.film_reading(SimpleNamespace(fields={"film": film}, x=np.arange(9) * 1e-5, feature_x=0.0), gear)
 
     on, above = least(floor * (1 + 1e-7)), least(2e-8)
     assert on.doubt == readings.TOUCH and on.lost and not above.doubt

@@ -70,7 +70,7 @@ def test_the_page_begins_with_safety_and_film(dry):
     assert "times the roughness" in page.answer.headline and "4.2 GPa" in page.answer.sentences[0]
     assert any("not published" in one for one in page.answer.doubts)
     assert {"bearing-loads", "bearing-contacts"} <= page.figures.keys()
-    text = document.rendered(page)
+    text = document.render(page)
     assert all(words in text for words in ("9.525 mm", "E = 206 GPa, nu = 0.3", "reference-pao", "inner.toml"))
     assert "profile of a roller" not in text
 
@@ -108,7 +108,7 @@ def test_the_figure_shows_loads_pressure_and_slip(dry):
 
 
 def test_results_of_the_runs_come_into_record_and_tables(tmp_path, monkeypatch):
-    monkeypatch.setattr(case, "work", lambda job, *_: position(job))
+    monkeypatch.setattr(case, "run_case", lambda job, *_: position(job))
     found = tehl.bearing("6205", **DUTY, folder=tmp_path / "b", workers=1)
     assert [one["summary"]["steady"]["h_c_m"] for one in found.rings.values()] == pytest.approx(
         [one["R_x_m"] for one in found.rings.values()])
@@ -143,7 +143,7 @@ def test_a_ring_without_a_result_is_named(tmp_path, monkeypatch):
             return {**made, "status": "not converged", "reason": "made up", "summary": None}
         return {**made, "summary": {**made["summary"], "version": "0.9", "wall_s": 1.0}}
 
-    monkeypatch.setattr(case, "work", work)
+    monkeypatch.setattr(case, "run_case", work)
     found = tehl.bearing("6205", **DUTY, folder=tmp_path / "b", workers=1)
     assert found.failed == {"inner": "made up"}
     assert "Not converged" in [section.title for section in bearing_page.of(found.folder).shown]

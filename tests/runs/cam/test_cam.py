@@ -38,7 +38,7 @@ def cycle(tmp_path_factory):
         return {**made, "summary": {"steady": steady, "version": "0.9", "wall_s": 2.0, "warnings": ["thick film"]}}
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(case, "work", work)
+        patch.setattr(case, "run_case", work)
         return tehl.cam(table(folder), folder=folder / "c", changes={"oil.name": "mineral-vg100"}, workers=1)
 
 

@@ -60,7 +60,7 @@ def test_the_pitch_point_rolls_cool_and_the_root_slides_hot(steady):
 
 
 def test_a_finished_flank_is_read_not_run(steady, monkeypatch):
-    monkeypatch.setattr(case, "work", lambda *_, **__: pytest.fail("it ran again"))
+    monkeypatch.setattr(case, "run_case", lambda *_, **__: pytest.fail("it ran again"))
     again = tehl.flank("fzg-c", at=("A", "C"), steady=True, changes=SMALL, folder=steady.folder)
     assert again.to_dict() == steady.to_dict()
 
@@ -112,7 +112,7 @@ class Heard(tehl.Progress):
 def test_positions_run_side_by_side_and_those_without_a_result_are_listed(tmp_path, monkeypatch):
     """In two processes, without a solver."""
     heard = Heard()
-    monkeypatch.setattr(case, "work", position)
+    monkeypatch.setattr(case, "run_case", position)
     found = tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=2, progress=heard)
     assert [at.point for at in found.positions] == ["A", "B-", "B+", "C", "D-", "D+", "E"]
     assert [summary and summary["steady"]["h_c_m"] for *_, summary in found.rows] == \
@@ -130,7 +130,7 @@ def test_an_interrupted_flank_says_how_far_it_is(tmp_path, monkeypatch, name, by
             raise interrupt(SimpleNamespace(signal=name), " after 2 steps")
         return position(job)
 
-    monkeypatch.setattr(case, "work", until_c)
+    monkeypatch.setattr(case, "run_case", until_c)
     with pytest.raises(KeyboardInterrupt, match=f"{by} after 3 of 7 positions; repeat .* --out .*/f to resume"):
         tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=1)
     waiting = [(at.point, reason) for at, reason in tehl.open(tmp_path / "f").failed]

@@ -6,7 +6,7 @@ import math
 import pytest
 
 from tehl_taichi.runs.flank.mesh import Mesh
-from tehl_taichi.runs.flank.positions import along
+from tehl_taichi.runs.flank.positions import positions_along
 from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.gear_pair import GearPair, angle_of, gear_pair, inv
 
@@ -14,7 +14,7 @@ STEEL = 206e9 / (1 - 0.3**2)  # E' in Pa
 
 
 def at_point(name, point, **options):
-    return along(Mesh(gear_pair(name)), at=(point,), **options)[0]
+    return positions_along(Mesh(gear_pair(name)), at=(point,), **options)[0]
 
 
 def hertz(position):
@@ -36,13 +36,13 @@ def test_the_fzg_gears_have_their_published_geometry(name, eps_alpha, d_a1, d_a2
 @pytest.mark.parametrize("torque, p_H", [(265.1, 1547e6), (215.6, 1395e6), (171.6, 1245e6), (70.0, 795e6)])
 def test_type_c_has_its_published_hertz_pressures(torque, p_H):
     mesh = Mesh(dataclasses.replace(gear_pair("fzg-c"), torque=torque))
-    assert hertz(along(mesh, at=("C",))[0]) == pytest.approx(p_H, rel=5e-3)
+    assert hertz(positions_along(mesh, at=("C",))[0]) == pytest.approx(p_H, rel=5e-3)
 
 
 @pytest.mark.parametrize("torque, p_H", [(372.6, 1539e6), (534.5, 1841e6)])
 def test_type_a_has_its_published_hertz_pressures_with_one_pair(torque, p_H):
     mesh = Mesh(dataclasses.replace(gear_pair("fzg-a"), torque=torque, load_share=((-0.02, 1.0), (0.02, 1.0))))
-    assert hertz(along(mesh, at=("C",))[0]) == pytest.approx(p_H, rel=1e-2)
+    assert hertz(positions_along(mesh, at=("C",))[0]) == pytest.approx(p_H, rel=1e-2)
 
 
 @pytest.mark.parametrize("name", ["fzg-c", "fzg-a"])
@@ -54,7 +54,7 @@ def test_the_pitch_point_rolls(name, on):
 
 
 def test_a_driving_pinion_slides_from_root_to_tip_and_the_gear_mirrors_it():
-    pinion, gear = (along(Mesh(gear_pair("fzg-c")), on, 12) for on in ("pinion", "gear"))
+    pinion, gear = (positions_along(Mesh(gear_pair("fzg-c")), on, 12) for on in ("pinion", "gear"))
     assert pinion[0].point == "A" and pinion[0].srr < 0 < pinion[-1].srr and pinion[-1].point == "E"
     assert gear[0].point == "E" and gear[0].srr < 0 < gear[-1].srr and gear[-1].point == "A"
     for one, other in zip(pinion, reversed(gear)):
@@ -67,7 +67,7 @@ def test_radii_and_speeds_follow_the_line_of_action():
     pair = gear_pair("fzg-c")
     mesh, omega = Mesh(pair), 2 * math.pi * pair.n1 / 60
     line = pair.a_w * math.sin(mesh.alpha_w)  # between the interference points
-    for at in along(mesh, count=20):
+    for at in positions_along(mesh, count=20):
         s = mesh.rho_C(1) + at.x_pl
         assert at.rho_a == pytest.approx(s) and at.rho_b == pytest.approx(line - s)
         assert at.R == pytest.approx(s * (line - s) / line)
@@ -89,21 +89,21 @@ def test_the_points_are_where_the_tips_and_the_base_pitch_put_them():
 def test_the_load_is_the_trapezoid_with_both_sides_of_its_jumps():
     mesh = Mesh(gear_pair("fzg-c"))
     full = 265.1 / (8 * 4.5e-3 * math.cos(math.radians(20))) / 14e-3
-    load = {at.point: at.load / full for at in along(mesh, count=7)}
+    load = {at.point: at.load / full for at in positions_along(mesh, count=7)}
     assert load == pytest.approx({"A": 1 / 3, "B-": 2 / 3, "B+": 1, "C": 1, "D-": 1, "D+": 2 / 3, "E": 1 / 3})
     A, B = mesh.points["A"], mesh.points["B"]
-    assert along(mesh, at=(0.5 * (A + B),))[0].load == pytest.approx(full / 2)
+    assert positions_along(mesh, at=(0.5 * (A + B),))[0].load == pytest.approx(full / 2)
 
 
 def test_a_table_of_shares_takes_the_place_of_the_trapezoid():
     table = ((-0.0096, 0.2), (-0.002, 0.4), (-0.002, 0.9), (0.0097, 0.5))
     mesh = Mesh(dataclasses.replace(gear_pair("fzg-c"), load_share=table))
-    at = along(mesh, at=(-0.002, 0.0))
+    at = positions_along(mesh, at=(-0.002, 0.0))
     assert [round(p.load / mesh.full_load, 12) for p in at] == [0.4, 0.9, round(0.9 - 0.4 * 0.002 / 0.0117, 12)]
 
 
 def test_positions_fill_the_widest_gaps_evenly():
-    at = along(Mesh(gear_pair("fzg-c")), count=40)
+    at = positions_along(Mesh(gear_pair("fzg-c")), count=40)
     ways = sorted({p.x_pl for p in at if p.point or abs(p.srr) > 0.05})
     steps = [high - low for low, high in zip(ways, ways[1:])]
     assert len(at) == 40 and max(steps) < 2 * min(steps) and {"A", "B-", "B+", "C", "D-", "D+", "E"} <= {p.point for p in at}
@@ -113,12 +113,12 @@ def test_a_position_on_each_side_of_the_pitch_point():
     """Where friction rises: with 3 % slip, from nine positions on, on both flanks; not where the table of shares is as fine."""
     mesh = Mesh(gear_pair("fzg-c"))
     for on in ("pinion", "gear"):
-        at = along(mesh, on, 9)
+        at = positions_along(mesh, on, 9)
         n = [p.point for p in at].index("C")
         assert [p.srr for p in at[n - 1 : n + 2]] == pytest.approx([-0.03, 0.0, 0.03], rel=5e-3)
-    assert [p.point for p in along(mesh, count=8)].count("") == 1 and along(mesh, count=8)[1].srr < -0.5
+    assert [p.point for p in positions_along(mesh, count=8)].count("") == 1 and positions_along(mesh, count=8)[1].srr < -0.5
     pair = dataclasses.replace(gear_pair("fzg-c"), load_share=((-0.01, 0.5), (2e-4, 0.5), (2e-4, 1.0), (0.01, 1.0)))
-    assert min(abs(p.srr) for p in along(Mesh(pair)) if p.point != "C") < 0.026
+    assert min(abs(p.srr) for p in positions_along(Mesh(pair)) if p.point != "C") < 0.026
 
 
 def test_shifts_and_centre_distance_give_each_other():
@@ -146,10 +146,10 @@ def test_helical_gears_by_the_transverse_section():
     beta_b = math.atan(math.tan(math.radians(20)) * math.cos(pair.alpha_t))  # the other formula of ISO 21771
     assert mesh.beta_b == pytest.approx(beta_b)
     rho_1, rho_2 = mesh.rho_C(1), mesh.rho_C(2)
-    at = along(mesh, at=("C",))[0]
+    at = positions_along(mesh, at=("C",))[0]
     assert at.R == pytest.approx(rho_1 * rho_2 / (rho_1 + rho_2) / math.cos(beta_b))
     F_bn, length = 500.0 / mesh.r_b(1) / math.cos(beta_b), 30e-3 * mesh.eps_alpha / math.cos(beta_b)
-    assert {p.load for p in along(mesh, count=8)} == {at.load} and at.load == pytest.approx(F_bn / length)
+    assert {p.load for p in positions_along(mesh, count=8)} == {at.load} and at.load == pytest.approx(F_bn / length)
 
 
 @pytest.mark.parametrize("values, why", [
@@ -204,7 +204,7 @@ def test_the_limits_of_the_refusals_hold():
 ])
 def test_positions_that_are_not_on_the_flank_are_refused(options, why):
     with pytest.raises(SceneError, match=why):
-        along(Mesh(gear_pair("fzg-c")), **options)
+        positions_along(Mesh(gear_pair("fzg-c")), **options)
 
 
 def test_unknown_pairs_are_refused_with_the_nearest():

@@ -49,7 +49,7 @@ def rough_gears(tmp_path_factory):
 
     pair = dataclasses.replace(gear_pair("fzg-c"), Ra1=0.4e-6, Ra2=0.6e-6, lambda_GFP=0.2, bulk_temperature=110.0)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(case, "work", work)
+        patch.setattr(case, "run_case", work)
         return tehl.flank(pair, at=("B-", "C"), folder=tmp_path_factory.mktemp("film") / "f", workers=1, steady=True)
 
 

@@ -147,7 +147,7 @@ def test_a_resolved_part_that_ends_before_the_outlet_says_why(at, told):
 def test_what_is_an_exit():
     from tehl_taichi.march.accuracy import readings
 
-    assert [readings.exits(x, 0.4e-3) for x in (-0.3e-3, 0.1e-3, 0.3e-3)] == [False, False, True]
+    assert [readings.is_at_exit(x, 0.4e-3) for x in (-0.3e-3, 0.1e-3, 0.3e-3)] == [False, False, True]
 
 
 def test_an_unresolved_peak_inside_wants_a_finer_grid():
@@ -191,4 +191,4 @@ def test_many_numbers_without_an_error_are_one_short_sentence():
     line, = judge_of_results.unknown_errors(store, summary)
     assert line.startswith("the error of steady n0, steady n1, steady n2, steady n3 and 5 more numbers is not known")
     assert line.data["numbers"] == [f"steady {key}" for key in keys]
-    assert judge_of_results.few(keys[:6]) == "n0, n1, n2, n3, n4, n5"
+    assert judge_of_results.few_names(keys[:6]) == "n0, n1, n2, n3, n4, n5"

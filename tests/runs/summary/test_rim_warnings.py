@@ -68,6 +68,6 @@ def test_only_points_that_are_used_count_as_not_measured(tmp_path):
     cut, whole = (feature(tmp_path / "holed.npy", **keys) for keys in ({"extent_x": 50e-6, "extent_y": 60e-6}, {}))
     assert "2 of its 3111 used points were not measured" in next(map_warnings._holes(cut))
     assert "11 of its 10201 points were not measured" in next(map_warnings._holes(whole))
-    assert ("not measured", "2, filled in (11 in the whole file)") in surface_plots.measured(cut, scene("gear"))
+    assert ("not measured", "2, filled in (11 in the whole file)") in surface_plots.map_facts(cut, scene("gear"))
     away = feature(tmp_path / "holed.npy", extent_x=50e-6, extent_y=60e-6, x=0.0)
     assert away.to_rim(20e-6, -31e-6) == pytest.approx((5e-6, -1e-6))

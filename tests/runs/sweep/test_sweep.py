@@ -234,14 +234,14 @@ def test_a_case_that_does_not_converge_leaves_the_others(taichi_cpu, tmp_path, m
     from tehl_taichi.errors import NotConverged
     from tehl_taichi.runs import single_run
 
-    whole = single_run.completed
+    whole = single_run.run_or_resume
 
     def stubborn(description, *args, **options):
         if description.operation.srr == 0.0:
             raise NotConverged("step 1 did not converge")
         return whole(description, *args, **options)
 
-    monkeypatch.setattr(single_run, "completed", stubborn)
+    monkeypatch.setattr(single_run, "run_or_resume", stubborn)
     over = {"srr": [0.0, 0.1]}
     study = tehl.sweep(GEAR.replace(**{"time.steps": 0, "fatigue.on": False}), over, tmp_path / "s.zarr", workers=1)
     assert [one["status"] for one in study.results()] == ["not converged", "converged"]

@@ -175,6 +175,7 @@ def test_a_limit_of_a_contact_beside_residual_stress_is_doubted():
 
 def test_a_store_of_a_relation_that_is_not_installed_names_it():
     data = GEAR.to_dict()
-    assert integrity.lacking(json.dumps(data)) == ""
+    assert integrity.missing_choice(json.dumps(data)) == ""
     data["fatigue"]["relation"] = "mine"
-    assert integrity.lacking(json.dumps(data)).startswith("fatigue.relation = 'mine', which is not installed here; known: mur")
+    found = integrity.missing_choice(json.dumps(data))
+    assert found.startswith("fatigue.relation = 'mine', which is not installed here; known: mur")

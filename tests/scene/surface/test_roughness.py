@@ -150,7 +150,7 @@ def test_rows_and_page():
     assert rows["autocorrelation length of surface b"].value.endswith("um along x")
     table, film = surface_plots.roughness(described, summary)
     assert table.data["head"] == ("roughness", "surface a", "surface b", "both together")
-    number = summary_numbers.every(summary)["lambda"]
+    number = summary_numbers.all_numbers(summary)["lambda"]
     assert (number.value, number.error, summary_columns.error_of("lambda")) == (4.0, 0.1, "error_lambda")
     column, = (one for one in flank_columns.COLUMNS if one.name == "lambda")
     assert column.shown(None, None, summary) == "4.00 ± 0.10" and column.shown(None, None, {}) == ""

@@ -22,11 +22,11 @@ class Coordinates:
     found_lines: tuple = ()
 
 
-def without(values):
+def separate(values):
     """Separate the coordinates from a table (rows, columns) of heights: first row or column, if they are evenly spaced. Returns
     :class:`Coordinates`.
     """
-    row, column = _along(values), _along(values.T)
+    row, column = _is_row(values), _is_row(values.T)
     if row and column:  # the corner belongs to neither
         row, column = values[0, 1:], values[1:, 0]
     else:
@@ -37,7 +37,7 @@ def without(values):
     return Coordinates(heights, step(row), step(column), tuple(found_lines))
 
 
-def _along(values):
+def _is_row(values):
     """Whether the first row contains coordinates: evenly spaced, and no continuation of the heights below."""
     if values.ndim != 2 or min(values.shape) < 5:
         return False
@@ -62,7 +62,7 @@ def _even(many):
     return float(step) if step and np.abs(steps - step).max() <= EVEN * abs(step) else None
 
 
-def rises(many):
+def is_even(many):
     """Whether numbers rise or fall evenly."""
     return _even(many) is not None
 
@@ -85,16 +85,16 @@ def is_list(values):
         return False
     long = values if values.shape[0] >= values.shape[1] else values.T
     rows, columns = long.shape
-    return rows >= NARROW * columns or any(map(_stays, long.T)) and any(map(_cycles, long.T))
+    return rows >= NARROW * columns or any(map(_is_stepped, long.T)) and any(map(_is_cyclic, long.T))
 
 
-def _stays(many):
+def _is_stepped(many):
     """Whether a column of coordinates is constant over several rows, then makes a step, repeatedly."""
     steps = np.diff(many)
     return bool(np.isfinite(steps).all() and steps.any() and (steps == 0).mean() >= REGULAR)
 
 
-def _cycles(many):
+def _is_cyclic(many):
     """Whether a column runs in equal steps and returns to its beginning, repeatedly."""
     steps = np.diff(many)
     if not np.isfinite(steps).all() or not (usual := np.median(steps)):

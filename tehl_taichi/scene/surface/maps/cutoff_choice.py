@@ -5,7 +5,7 @@ import math
 
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.surface.maps import flattening_pressure, gaussian_filter
-from tehl_taichi.scene.surface.maps.height_map import Measures, missed
+from tehl_taichi.scene.surface.maps.height_map import Measures, lost_share
 from tehl_taichi.scene.yield_pressure import YIELDS
 
 STEEP = 10.0  # degrees: the film equation takes slopes for small (tan 10 deg = 0.18)
@@ -27,7 +27,7 @@ def points_in_a_cell(f, scene):
     return [found[axis if count > 1 else 1 - axis] for axis, count in enumerate(f.points)]
 
 
-def pressed(heights, f, scene):
+def contact_pressure(heights, f, scene):
     """Highest pressure (Pa) of a contact that presses these heights flat: that of the dry contact plus that of the heights.
 
     Comparison with a ground flank under 1.3 GPa before it reached the outlet: 4.9 GPa computed, 4.8 estimated (cutoff 25 um);
@@ -39,10 +39,10 @@ def pressed(heights, f, scene):
 
 def yields(heights, f, scene, margin=1.0):
     """Whether this pressure exceeds `margin` times the limit of steel because of the heights; without them it must not."""
-    return Scales.of(scene).p_H < YIELDS < pressed(heights, f, scene) / margin
+    return Scales.of(scene).p_H < YIELDS < contact_pressure(heights, f, scene) / margin
 
 
-def helping(f, scene):
+def suitable_cutoff(f, scene):
     """Smallest cutoff (m) with which the grid resolves the map, its slopes are small and steel carries it; 0 if there is
     none.
     """
@@ -57,12 +57,12 @@ def _searched(f, scene):
     least = max(least, f.cutoff)
     count = math.floor(math.log(most / least) / math.log(FINER)) + 1
     tried = sorted({cutoff for n in range(1, count) if least < (cutoff := float(f"{least * FINER**n:.1e}")) < most})
-    found = bisect.bisect_left(tried, True, key=lambda cutoff: _taken(f, scene, cutoff))
+    found = bisect.bisect_left(tried, True, key=lambda cutoff: _is_suitable(f, scene, cutoff))
     return tried[found] if found < len(tried) else 0.0
 
 
-def _taken(f, scene, cutoff):
+def _is_suitable(f, scene, cutoff):
     """Whether the map with this cutoff (m) is resolved, has small slopes and is carried by steel."""
     measured = middle(f.filtered(cutoff))
     return (Measures.of(measured, f.steps).slope <= STEEP and not yields(heights := middle(f.passing(cutoff)), f, scene)
-            and missed(heights, *points_in_a_cell(f, scene)) <= SHARE)
+            and lost_share(heights, *points_in_a_cell(f, scene)) <= SHARE)

@@ -141,22 +141,22 @@ def levelled(values, level):
     if level == "mean":
         return centred
     y, x = (np.arange(n) - (n - 1) / 2 for n in values.shape)
-    flat = centred - _slanted(values.mean(axis=0), x) - _slanted(values.mean(axis=1), y)[:, None]
-    return flat if level == "plane" else flat - _curved(flat, x, y)
+    flat = centred - _line(values.mean(axis=0), x) - _line(values.mean(axis=1), y)[:, None]
+    return flat if level == "plane" else flat - _second_order(flat, x, y)
 
 
-def _slanted(profile, x):
+def _line(profile, x):
     """Straight line through a profile; zero for one point."""
     return x * (x @ profile) / max(x @ x, 0.5)
 
 
-def _curved(values, x, y):
+def _second_order(values, x, y):
     """Part of heights (rows, columns; without a plane) that is x^2, y^2 or x y; each term is independent of the others."""
     twist = (y @ values @ x) / max((x @ x) * (y @ y), 0.25)
-    return _bent(values.mean(axis=0), x)[0] + _bent(values.mean(axis=1), y)[0][:, None] + twist * np.outer(y, x)
+    return _parabola(values.mean(axis=0), x)[0] + _parabola(values.mean(axis=1), y)[0][:, None] + twist * np.outer(y, x)
 
 
-def _bent(profile, x):
+def _parabola(profile, x):
     """(parabola of a profile without slope, its second derivative)."""
     bent = x * x - (x * x).mean()
     share = (bent @ profile) / (bent @ bent) if x.size > 2 else 0.0
@@ -168,7 +168,7 @@ def curvature(values, steps):
     is high.
     """
     flat = levelled(values, "plane")
-    return tuple(-_bent(flat.mean(axis=axis), np.arange(n) - (n - 1) / 2)[1] / step**2
+    return tuple(-_parabola(flat.mean(axis=axis), np.arange(n) - (n - 1) / 2)[1] / step**2
                  for axis, n, step in zip((0, 1), values.shape[::-1], steps))
 
 
@@ -202,16 +202,16 @@ def gradients(heights, steps):
     return (along if along.size else 0 * across), (across if across.size else 0 * along)
 
 
-def missed(heights, along, across):
+def lost_share(heights, along, across):
     """Share of the rms of `heights` that a coarse grid loses: every `along`-th point along x and `across`-th along y is kept
     (not necessarily whole numbers), and the rest interpolated linearly.
     """
     rms = float(heights.std())
-    seen = _through(_through(heights, along).T, across).T
+    seen = _resampled(_resampled(heights, along).T, across).T
     return float((heights - seen).std()) / rms if rms > 0 else 0.0
 
 
-def _through(values, step):
+def _resampled(values, step):
     """Rows of `values` interpolated from points `step` apart; an incomplete last interval is unchanged."""
     count = int((values.shape[1] - 1) / step) if step > 1 else 0
     if count == 0:

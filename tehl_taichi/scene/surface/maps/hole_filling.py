@@ -6,12 +6,12 @@ MOST, DEEPEST = 0.05, 8  # share of the points; points from the rim of a hole to
 SWEEPS = 20  # per point of depth: what is left of a hole's heights then is under 1e-6 of its rim's range
 
 
-def missing(values):
+def unmeasured(values):
     """Mask of the unmeasured points (nan or infinite)."""
     return ~np.isfinite(values)
 
 
-def depth(holes):
+def hole_depth(holes):
     """Number of points from the rim of the largest hole to its middle; the edge of the map is no rim."""
     inside, layers = holes, 0
     while inside.any():
@@ -21,9 +21,9 @@ def depth(holes):
     return layers
 
 
-def filled(values):
+def fill(values):
     """`values` with filled holes: every filled point is the mean of its neighbours (Laplace's equation)."""
-    holes = missing(values)
+    holes = unmeasured(values)
     if not holes.any():
         return values
     out, known = np.where(holes, 0.0, values), ~holes
@@ -34,7 +34,7 @@ def filled(values):
     flat, at, row = framed.ravel(), np.flatnonzero(np.pad(holes, 1)), framed.shape[1]
     beside = at + np.array([[-row], [row], [-1], [1]])
     neighbours = real[beside].sum(axis=0)
-    for _ in range(SWEEPS * depth(holes) ** 2):
+    for _ in range(SWEEPS * hole_depth(holes) ** 2):
         flat[at] = flat[beside].sum(axis=0) / neighbours
     return framed[1:-1, 1:-1]
 

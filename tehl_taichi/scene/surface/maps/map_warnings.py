@@ -11,14 +11,14 @@ from tehl_taichi.scene.surface.maps.cutoff_choice import (
     SHARE,
     STEEP,
     SURELY,
-    helping,
+    contact_pressure,
     middle,
     points_in_a_cell,
-    pressed,
+    suitable_cutoff,
     yields,
 )
 from tehl_taichi.scene.surface.maps.form import FLAT
-from tehl_taichi.scene.surface.maps.height_map import LEVELS, ROWS, missed
+from tehl_taichi.scene.surface.maps.height_map import LEVELS, ROWS, lost_share
 from tehl_taichi.scene.yield_pressure import STEEL
 from tehl_taichi.values.coded_text import Option, grid_option
 from tehl_taichi.values.coded_warning import with_data
@@ -170,7 +170,7 @@ def _steep(f):
 
 def _hard(f, scene):
     if yields(heights := middle(f.used), f, scene, SURELY):
-        yield f"need about {pressed(heights, f, scene) / 1e9:.2g} GPa to be flattened in this contact; {STEEL}"
+        yield f"need about {contact_pressure(heights, f, scene) / 1e9:.2g} GPa to be flattened in this contact; {STEEL}"
 
 
 def _name(f):
@@ -179,7 +179,7 @@ def _name(f):
 
 def _grid(f, scene):
     steps, heights = points_in_a_cell(f, scene), middle(f.used)
-    lost, own = missed(heights, *steps), missed(heights, 2, 2)
+    lost, own = lost_share(heights, *steps), lost_share(heights, 2, 2)
     if lost > SHARE:
         remedy, cutoff = _finer(heights, steps, scene.grid), _cutoff(f, scene)
         yield with_data(f"{_name(f)}: the grid loses {lost:.0%} of the rms of the {f.shape} "
@@ -189,14 +189,14 @@ def _grid(f, scene):
                f"({own:.0%} of the rms changes without every second point); heights are interpolated linearly")
 
 
-def carried(scene):
+def resolves_maps(scene):
     """Whether the grid resolves every map of the scene."""
-    return all(missed(middle(f.used), *points_in_a_cell(f, scene)) <= SHARE for f in scene.features if f.kind.measured)
+    return all(lost_share(middle(f.used), *points_in_a_cell(f, scene)) <= SHARE for f in scene.features if f.kind.measured)
 
 
 def _cutoff(f, scene):
     """Text of the cutoff that removes the warnings about grid, slopes and pressure; "" without one."""
-    if not (cutoff := helping(f, scene)):
+    if not (cutoff := suitable_cutoff(f, scene)):
         return ""
     cells, left = cutoff / max(Scales.of(scene).cell(scene.grid)), np.ptp(f.passing(cutoff))
     return (f"feature.cutoff = {cutoff:g} (m; {_um(cutoff)} um, {cells:.2g} cells) removes finer waves and reduces the range "
@@ -206,7 +206,7 @@ def _cutoff(f, scene):
 def _finer(heights, steps, grid):
     """Option of the grid that would resolve the map."""
     factor = 2
-    while missed(heights, steps[0] / factor, steps[1] / factor) > SHARE:  # ends at the map's own points
+    while lost_share(heights, steps[0] / factor, steps[1] / factor) > SHARE:  # ends at the map's own points
         factor *= 2
     (nx, ny), most = (grid.nx * factor, grid.ny * factor), [cells for _, cells in MULTIPLES.values()]
     if nx <= most[0] and ny <= most[1]:

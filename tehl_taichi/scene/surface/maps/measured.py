@@ -87,12 +87,12 @@ class Measured:
     @cached_property
     def raw(self):
         """Used part with filled holes and with its form."""
-        return hole_filling.filled(np.where(self.spikes, np.nan, self.part))
+        return hole_filling.fill(np.where(self.spikes, np.nan, self.part))
 
     @property
     def holes(self):
         """Mask (along y, along x) of filled points of the used part."""
-        return hole_filling.missing(self.part) | self.spikes
+        return hole_filling.unmeasured(self.part) | self.spikes
 
     def nearest(self, x, y):
         """Indices (along y, along x) of the points nearest to x, y (m, from the centre; arrays or numbers)."""
@@ -127,14 +127,14 @@ class Measured:
     def even_rows(self):
         """Used part without the offsets of the rows of its file."""
         rows = self.raw.T if self.orientation.transpose else self.raw
-        rows = row_offsets.removed(rows)
+        rows = row_offsets.without_offsets(rows)
         return rows.T if self.orientation.transpose else rows
 
     @cached_property
     def row_offsets(self):
         """The :class:`tehl_taichi.scene.surface.maps.row_offsets.RowOffsets` of the rows of its file, or None."""
         flat = height_map.levelled(self.raw, "plane")
-        return row_offsets.found(flat.T if self.orientation.transpose else flat)
+        return row_offsets.find(flat.T if self.orientation.transpose else flat)
 
     def filtered(self, cutoff):
         """Heights levelled and low-pass filtered with that cutoff (m; 0: none). A remaining plane passes unchanged, up to the

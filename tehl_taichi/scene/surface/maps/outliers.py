@@ -19,7 +19,7 @@ def spikes(heights, steps):
     """Mask of the spikes of `heights` (points along y, along x; m, nan if not measured); steps: distances (m, along x, along
     y).
     """
-    steep, none = _steep(heights, steps), np.zeros(heights.shape, bool)
+    steep, none = _steep_points(heights, steps), np.zeros(heights.shape, bool)
     if not steep.any() or steep.mean() > FEW:
         return none
     reach = (3, 3) if min(heights.shape) > 1 else _along(heights.shape)
@@ -27,9 +27,9 @@ def spikes(heights, steps):
     for _ in range(INSIDE):
         steep = _wider(steep)
     at = np.argwhere(steep)
-    limit = max(FAR * _usual(padded, heights.shape, reach), STEEP * _least(heights.shape, steps))
+    limit = max(FAR * _usual_deviation(padded, heights.shape, reach), STEEP * _least(heights.shape, steps))
     found = at[np.abs(_differences(padded, at, reach)) > limit]
-    return _small(found, none)
+    return _small_groups(found, none)
 
 
 def _along(shape):
@@ -41,7 +41,7 @@ def _least(shape, steps):
     return min(step for step, count in zip(steps, shape[::-1]) if count > 1)
 
 
-def _steep(heights, steps):
+def _steep_points(heights, steps):
     """Mask of points with a steep side."""
     out = np.zeros(heights.shape, bool)
     for axis, step in zip((1, 0), steps):
@@ -63,7 +63,7 @@ def _wider(points):
     return points
 
 
-def _usual(padded, shape, reach):
+def _usual_deviation(padded, shape, reach):
     """Usual standard deviation of the differences to neighbours: from their median and from their 99 % quantile.
 
     The median alone is too small for plateaus with valleys.
@@ -86,7 +86,7 @@ def _differences(padded, at, reach):
     return padded[places[:, 0], places[:, 1]] - 0.5 * (low + high)
 
 
-def _small(found, out):
+def _small_groups(found, out):
     """Mask of the points in groups of at most LARGEST."""
     left = set(map(tuple, found.tolist()))
     while left:

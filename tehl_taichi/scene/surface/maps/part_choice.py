@@ -13,16 +13,16 @@ def check(f):
         return
     where = f"feature.file = {f.file!r}" if f.file else "heights"
     raise HeightsRefused(f"{where} lacks {holes.mean():.2g} of its {holes.size} heights, in holes of up to "
-                         f"{2 * hole_filling.depth(holes)} points across; allowed: {hole_filling.MOST:g}, holes of "
+                         f"{2 * hole_filling.hole_depth(holes)} points across; allowed: {hole_filling.MOST:g}, holes of "
                          f"{2 * hole_filling.DEEPEST} (they are filled from their neighbours); {_remedy(f)}")
 
 
 def _enough(holes):
-    return holes.mean() <= hole_filling.MOST and hole_filling.depth(holes) <= hole_filling.DEEPEST
+    return holes.mean() <= hole_filling.MOST and hole_filling.hole_depth(holes) <= hole_filling.DEEPEST
 
 
 def _remedy(f):
-    holes = hole_filling.missing(f.orientation.turned(f.heights))
+    holes = hole_filling.unmeasured(f.orientation.turned(f.heights))
     low_y, high_y, low_x, high_x = ends = measured_part(holes)
     if not _large(ends) or not _enough(holes[low_y:high_y, low_x:high_x]):
         return "use a part with fewer holes (feature.offset_x, extent_x ...), or fill them in the measuring software"

@@ -19,19 +19,19 @@ class RowOffsets:
     rows: int
 
 
-def removed(values):
+def without_offsets(values):
     """Heights (rows, columns) less the median of each row."""
     return values - np.median(values, axis=1, keepdims=True)
 
 
-def found(values):
+def find(values):
     """Find the :class:`RowOffsets` of heights (rows, columns) without a plane; None without offsets.
 
     Grinding marks along the rows also change from row to row, but gradually; they are no offsets.
     """
     if len(values) < FEWEST:
         return None
-    offsets, rest = np.median(values, axis=1), removed(values)
+    offsets, rest = np.median(values, axis=1), without_offsets(values)
     jumps = np.abs(np.diff(offsets))
     within = NORMAL * float(np.median(np.abs(np.diff(rest, axis=0))))
     usual = NORMAL * float(np.median(jumps))

@@ -13,7 +13,7 @@ SAME = 0.02  # relative difference of distances that are one: of rounded coordin
 KEYS = {"x": "pixel", "y": "pixel_y"}
 
 
-def settle(f):
+def fill_in(f):
     """Fill in missing keys from the file. Raises SceneError if the file contradicts given keys or states impossible values."""
     facts = height_map.facts(f)
     _unit(f, facts.stated.unit)
@@ -32,7 +32,7 @@ def _unit(f, unit):
         object.__setattr__(f, "unit", unit)
 
 
-def usable(distances):
+def likely_distance(distances):
     """Most likely of these distances (m) with six digits, 0 without a possible one."""
     return float(f"{distances[0]:.6g}") if distances and NEAREST <= distances[0] <= FARTHEST else 0.0
 
@@ -41,7 +41,7 @@ def _distance(f, key, distances):
     """Fill in or check a distance. distances: stated in the file, m, the most likely first."""
     if not distances:
         return
-    value, possible = getattr(f, key), usable(distances)
+    value, possible = getattr(f, key), likely_distance(distances)
     missing = not value and (key == "pixel" or not _like(f.pixel, distances))
     if missing and possible:
         object.__setattr__(f, key, possible)
@@ -64,7 +64,7 @@ def _check_spacing(f, key, step, found):
                          f"{found:g} apart: {in_units(found) or 'too near or too far in every unit'}")
 
 
-def pixel_meant(f):
+def pixel_hint(f):
     """End of a sentence: distances of the file's coordinates in all units that make sense."""
     found = height_map.facts(f).spacing[0]
     each = in_units(found)

@@ -50,7 +50,7 @@ class Table:
         """Table of the heights alone; beside: description of the removed coordinates; spacing: their distances (along a row,
         from row to row), None without any.
         """
-        found = coordinates.without(self.values)
+        found = coordinates.separate(self.values)
         return replace(self, values=found.heights, beside=found.found_lines, spacing=(found.x, found.y))._with_stated()
 
     def _with_stated(self):
@@ -157,7 +157,7 @@ def _has_corner(words):
     if len(words) < 5 or _is_height(words[0]):
         return False
     try:
-        return coordinates.rises(np.array(words[1:], float))
+        return coordinates.is_even(np.array(words[1:], float))
     except ValueError:
         return False
 

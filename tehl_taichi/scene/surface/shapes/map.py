@@ -83,7 +83,7 @@ class Map(Patch):
         object.__setattr__(f, "sha256", sha256)
         f.__dict__["heights"] = heights
         self.check_rows(f)
-        stated_keys.settle(f)
+        stated_keys.fill_in(f)
         _check_keys(f)
         _check_heights(f)
         super().check(f)
@@ -107,7 +107,7 @@ def _check_keys(f):
                          f"{', '.join(UNITS)} (feature.height, m per unit of the file in version 0.1.0, is not used)")
     if f.pixel == 0:
         raise KeyMissing(f"feature.pixel is missing: shape {f.shape!r} needs the distance of its points in m, as pixel = "
-                         f"1e-6{stated_keys.pixel_meant(f)}")
+                         f"1e-6{stated_keys.pixel_hint(f)}")
     if f.height not in (0, type(f).height):
         raise SceneError(f"feature.height = {f.height:g} m has no effect on a {f.shape}, whose heights are in its file; "
                          "allowed: 0 or not given (feature.scale multiplies the heights)")

@@ -30,7 +30,7 @@ FRAMES = {"numbers": (np.arange(COLUMNS), np.arange(ROWS)), "from one": (np.aran
 @pytest.mark.parametrize("corner", [np.nan, 0.0, 117.0])
 @pytest.mark.parametrize("name", FRAMES)
 def test_a_row_and_a_column_of_coordinates_are_taken_off(name, corner):
-    found = coordinates.without(framed(*FRAMES[name], corner))
+    found = coordinates.separate(framed(*FRAMES[name], corner))
     assert np.array_equal(found.heights, HEIGHTS)
     x, y = FRAMES[name]
     assert len(found.found_lines) == (x is not None) + (y is not None)
@@ -50,14 +50,14 @@ SURFACES = {"rough": HEIGHTS, "ramp": RAMP, "along x": RAMP[:1] + 0 * HEIGHTS, "
 
 @pytest.mark.parametrize("name", SURFACES)
 def test_heights_alone_stay_as_they_are(name):
-    found = coordinates.without(SURFACES[name])
+    found = coordinates.separate(SURFACES[name])
     assert found.found_lines == () and np.array_equal(found.heights, SURFACES[name], equal_nan=True)
     assert not coordinates.is_list(SURFACES[name])
 
 
 @pytest.mark.parametrize("name", SURFACES)
 def test_a_plane_between_coordinates_is_found(name):
-    found = coordinates.without(framed(X, Y, heights=SURFACES[name]))
+    found = coordinates.separate(framed(X, Y, heights=SURFACES[name]))
     assert np.array_equal(found.heights, SURFACES[name], equal_nan=True)
 
 

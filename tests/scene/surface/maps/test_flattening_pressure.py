@@ -33,7 +33,7 @@ def test_a_wave_is_pressed_flat_by_johnson_s_pressure(axis):
 def test_the_contact_presses_as_much_again_and_a_plane_takes_nothing():
     f = feature(**saved(waves(1.0, 0.0)))
     gear = scene("gear")
-    assert cutoff_choice.pressed(f.used, f, gear) == pytest.approx(Scales.of(gear).p_H, rel=1e-6)
+    assert cutoff_choice.contact_pressure(f.used, f, gear) == pytest.approx(Scales.of(gear).p_H, rel=1e-6)
 
 
 @pytest.fixture(autouse=True)
@@ -67,7 +67,7 @@ def test_heights_that_steel_does_not_bear_are_told_the_cutoff_that_it_does():
     helped, less = (scan.replace(**{"feature.cutoff": value}) for value in (cutoff, 0.9 * cutoff))
     assert rough(helped) == []
     (f,), (almost,) = helped.features, less.features
-    assert cutoff_choice.pressed(f.used, f, scan) <= YIELDS < cutoff_choice.pressed(almost.used, almost, scan)
+    assert cutoff_choice.contact_pressure(f.used, f, scan) <= YIELDS < cutoff_choice.contact_pressure(almost.used, almost, scan)
 
 
 def test_slopes_and_pressure_share_a_sentence():

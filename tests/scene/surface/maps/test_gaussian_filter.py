@@ -83,8 +83,8 @@ def test_what_was_filtered_is_told(tmp_path):
     f = feature(waves(tmp_path, CUTOFF, 0), **STEPS, cutoff=CUTOFF)
     first, _ = f.kind.preview(f, scene("gear"))
     assert first.endswith("plane removed, low-pass with a cutoff of 25 um (Gaussian)")
-    assert ("low-pass", "Gaussian, cutoff 25 µm") in surface_plots.measured(f, scene("gear"))
-    assert "low-pass" not in dict(surface_plots.measured(feature(tmp_path / "waves.npy"), scene("gear")))
+    assert ("low-pass", "Gaussian, cutoff 25 µm") in surface_plots.map_facts(f, scene("gear"))
+    assert "low-pass" not in dict(surface_plots.map_facts(feature(tmp_path / "waves.npy"), scene("gear")))
 
 
 @pytest.mark.parametrize("cutoff, words", [(4.9e-6, "at least 5e-06 m"), (0.7e-3, "at most 0.0006 m")])

@@ -205,13 +205,13 @@ def test_flat_steep_and_cut_off_maps_are_doubted(tmp_path):
 
 
 def test_what_a_grid_misses_is_what_linear_cells_miss():
-    from tehl_taichi.scene.surface.maps.height_map import missed
+    from tehl_taichi.scene.surface.maps.height_map import lost_share
 
     x = np.arange(2001.0)
     for cells in (4.5, 8.0, 20.0):  # of linear interpolation of a wave of that many cells: (2 pi/cells)^2 sqrt(1/120 + ...)
         heights = np.tile(np.cos(2 * np.pi * x / (cells * 25)), (9, 1))
-        assert missed(heights, 25, 1) == pytest.approx((2 * np.pi / cells) ** 2 * np.sqrt(1 / 120), rel=0.12)
-    assert missed(heights, 0.5, 1) == 0 == missed(0 * heights, 25, 3)
+        assert lost_share(heights, 25, 1) == pytest.approx((2 * np.pi / cells) ** 2 * np.sqrt(1 / 120), rel=0.12)
+    assert lost_share(heights, 0.5, 1) == 0 == lost_share(0 * heights, 25, 3)
 
 
 def test_paths_start_at_the_scene_file_and_a_changed_file_is_another_scene(tmp_path, monkeypatch):
@@ -257,13 +257,13 @@ def test_a_scene_carries_its_heights_to_another_process(tmp_path):
 def moved(taichi_cpu, tmp_path_factory):
     """(scene, store of its first three steps, store of all four): one broken off, then moved and its map file removed."""
     from tehl_taichi.march.passage import march
-    from tehl_taichi.runs.single_run import completed
+    from tehl_taichi.runs.single_run import run_or_resume
     from tehl_taichi.store.store import Store
 
     home = tmp_path_factory.mktemp("home")
     turned = {"feature.transpose": True, "feature.mirror_x": True}
     description = with_map(wave(home, length=60.0), **{"time.steps": 4, "fatigue.depths": ()}, **turned)
-    whole = completed(description, home / "whole.zarr")
+    whole = run_or_resume(description, home / "whole.zarr")
     run = march(description)
     broken = Store.create(home / "broken.zarr", description, next(run), 5, {"steady_error": "{}", "steady_unknown": "{}"})
     for _ in range(2):
@@ -281,14 +281,14 @@ def elsewhere(monkeypatch):
 
 
 def test_a_moved_store_goes_on_without_the_map_file(moved, elsewhere):
-    from tehl_taichi.runs.single_run import completed
+    from tehl_taichi.runs.single_run import run_or_resume
     from tehl_taichi.store.store import Store
 
     description, broken, whole = moved
     assert Store.open(broken).scene == description
     again = Store.open(broken).scene.features[0].whole_heights
     np.testing.assert_array_equal(again, description.features[0].whole_heights)  # turned once
-    a, b = completed(description, broken).store, Store.open(whole)  # resumes
+    a, b = run_or_resume(description, broken).store, Store.open(whole)  # resumes
     assert len(a) == len(b) == 5 and np.array_equal(a.fields(4)["film"], b.fields(4)["film"])
 
 
@@ -309,10 +309,10 @@ def test_a_moved_store_is_opened_by_xarray_plotted_and_run_again(moved, elsewher
 
 
 def test_on_the_whole_domain_cells_are_still_those_of_the_scene(moved):
-    from tehl_taichi.runs.summary.summary import counts
+    from tehl_taichi.runs.summary.summary import grid_counts
     from tehl_taichi.store.store import Store
 
-    found = counts(Store.open(moved[2]))
+    found = grid_counts(Store.open(moved[2]))
     assert found == {"grid": {"nx": 65, "ny": 33, "nz": 1}, "cells": {"nx": 64, "ny": 16}}
 
 

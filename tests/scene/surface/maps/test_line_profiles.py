@@ -109,7 +109,7 @@ def test_a_line_contact_stays_a_line(column):
     first, second = line.features[0].kind.preview(line.features[0], line)
     assert "150 points 2 um apart, 298 um of them used" in first and "transverse (heights over x" in first
     assert second.endswith("a cell of the grid has 1.41 points")
-    told = dict(surface_plots.measured(line.features[0], line))
+    told = dict(surface_plots.map_facts(line.features[0], line))
     assert told["points"] == "150" and told["patch used"].startswith("298 µm, fading") and "lay" in told
     assert any("points 2 um apart" in one for one in line.warnings()) is False
     steep = gear_with(profile(column, scale=20.0, taper=30e-6))

@@ -55,13 +55,13 @@ def test_what_was_done_is_told(scan):
     first, _ = f.kind.preview(f, scene("gear"))
     assert first.startswith("map scan.npy: 20 x 31 points 3 x 2 um apart, 57 x 60 um of them used, "
                             "fading out over 10 um at the rim, transposed, mirrored along x, heights in um")
-    assert ("turned", "transposed, mirrored along x") in surface_plots.measured(f, scene("gear"))
-    assert ("points", "20 × 31") in surface_plots.measured(f, scene("gear"))
+    assert ("turned", "transposed, mirrored along x") in surface_plots.map_facts(f, scene("gear"))
+    assert ("points", "20 × 31") in surface_plots.map_facts(f, scene("gear"))
     assert "transpose, mirror_x" in ", ".join(scene_text._sizes(f))
     thin = {"taper": 5e-6}
     both = feature(scan, mirror_x=True, mirror_y=True, **thin)
     assert both.orientation.says == "mirrored along x and y" and feature(scan, **thin).orientation.says == ""
-    assert not any(what == "turned" for what, _ in surface_plots.measured(feature(scan, **thin), scene("gear")))
+    assert not any(what == "turned" for what, _ in surface_plots.map_facts(feature(scan, **thin), scene("gear")))
 
 
 def test_a_store_has_the_heights_as_they_are_in_the_file(scan, tmp_path):

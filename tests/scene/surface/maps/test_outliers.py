@@ -93,7 +93,7 @@ def test_a_spike_does_not_refuse_a_scan(spiked):
     said, = (one for one in warnings(described) if "points are spikes" in one)
     assert "2 points" in said and said.endswith("at row 61, column 71") and said.data["spikes"] == 2
     assert said.data["largest_m"] == pytest.approx(9e-6, rel=0.05)
-    assert ("not measured", "2, filled in, 2 of them spikes") in surface_plots.measured(f, described)
+    assert ("not measured", "2, filled in, 2 of them spikes") in surface_plots.map_facts(f, described)
     assert not any("are spikes" in one for one in dataclasses.replace(scene("gear"), features=(clean,)).warnings())
     turned = feature(spiked[0], **keys, transpose=True, mirror_x=True)
     assert turned.place_in_file(*np.argwhere(turned.spikes)[0]) in ("row 31, column 41", "row 61, column 71")

@@ -15,21 +15,21 @@ from tehl_taichi.scene.surface.maps import row_offsets
 @pytest.mark.parametrize("across, along", [(2, 40), (40, 2), (200, 2), (1000, 3), (5, 5), (12, 12), (1, 1)])
 def test_roughness_has_none(across, along):
     """across, along: points over which heights are alike along a row and from row to row."""
-    assert [row_offsets.found(surface(seed=seed, across=across, along=along)) for seed in range(12)] == [None] * 12
+    assert [row_offsets.find(surface(seed=seed, across=across, along=along)) for seed in range(12)] == [None] * 12
 
 
 def test_each_row_by_itself():
     heights = surface(across=6, along=6) + 0.5e-6 * np.random.default_rng(1).standard_normal((90, 1))
-    found = row_offsets.found(heights)
+    found = row_offsets.find(heights)
     assert found.rows == 0 and found.size == pytest.approx(0.5e-6 * np.sqrt(2), rel=0.3)
-    assert row_offsets.removed(heights).std() < 1.05 * surface().std()
+    assert row_offsets.without_offsets(heights).std() < 1.05 * surface().std()
 
 
 def test_stitches():
     heights = surface()
     heights[30:] += 1e-6
     heights[70:] -= 0.8e-6
-    found = row_offsets.found(heights)
+    found = row_offsets.find(heights)
     assert found.rows == 2 and found.size == pytest.approx(1e-6, rel=0.3)
 
 
