@@ -102,7 +102,7 @@ def forced_in_time(monkeypatch):
     """By turns, nothing settles any more."""
     from tehl_taichi.march import steady
 
-    by_turns = steady.settle
+    by_turns = steady.find_steady
 
     def failing(*args):
         report, _ = by_turns(*args)
@@ -262,7 +262,7 @@ def test_the_side_lobes_of_a_point_contact_are_its_thinnest_film(ratio):
 def test_a_grid_on_which_the_surfaces_touch_is_no_start_for_temperatures(monkeypatch):
     from tehl_taichi.march import steady
 
-    sizes, settle = [], steady.settle
+    sizes, settle = [], steady.find_steady
     monkeypatch.setattr(steady, "find_steady", lambda levels, *rest: sizes.append(levels.nx) or settle(levels, *rest))
     shot = first(speed=0.3, srr=-0.5, **{"grid.nx": 128})
     assert 32 not in sizes and sizes[-1] == 128

@@ -184,7 +184,7 @@ def test_temperatures_settle_beside_the_border_of_their_film(monkeypatch):
     """Beside a gap of two films, which answers the border with as large a change; 0.03 of the oil's pressure were left once."""
     from tehl_taichi.march import steady as starts
 
-    missed, agreed = [], starts.agreed
+    missed, agreed = [], starts.iterate_border
 
     def seen(solver, border, report):
         missed.append(np.abs(border.beyond() - border.now()).max() / border.q[-1])
