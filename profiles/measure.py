@@ -30,9 +30,9 @@ class Timing:
 
 
 def fresh(threads, function, *args):
-    """function(*args) in a new process whose Taichi runs on `threads` threads."""
+    """function(*args) in a new process whose Taichi runs on `threads` threads, or on the card that TEHL_ARCH names."""
     spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(1, mp_context=spawn, initializer=runtime.start, initargs=("cpu", threads)) as process:
+    with ProcessPoolExecutor(1, mp_context=spawn, initializer=runtime.start, initargs=(None, threads)) as process:
         return process.submit(function, *args).result()
 
 

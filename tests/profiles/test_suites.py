@@ -1,6 +1,7 @@
 """The speed, scaling and profile suites: they measure what they say, in processes of their own."""
 
 import time
+from concurrent.futures.process import BrokenProcessPool
 from types import SimpleNamespace
 
 import pytest
@@ -16,6 +17,13 @@ def small(**changes):
 
 def test_fresh_processes_have_their_own_threads():
     assert [measure.fresh(count, runtime.ensure)["threads"] for count in (1, 3)] == [1, 3]
+
+
+def test_fresh_processes_run_on_the_card_that_the_environment_names(monkeypatch):
+    """There is none of this name, so the process does not start."""
+    monkeypatch.setenv("TEHL_ARCH", "metal")
+    with pytest.raises(BrokenProcessPool):
+        measure.fresh(1, runtime.ensure)
 
 
 def test_a_passage_is_timed(taichi_cpu):
