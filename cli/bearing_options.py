@@ -23,17 +23,17 @@ def loads(
 
 
 def contacts(
-    pitch_diameter: Annotated[Optional[float], also_number("pitch diameter: of the circle through the centres of the elements, "
+    pitch_diameter: Annotated[Optional[float], also_number("diameter of the pitch circle, through the centres of the elements, "
                                                            "m")] = None,
     contact_angle: Annotated[Optional[float], also_number("contact angle without load, degrees (tapered rollers: of the outer "
                                                           "ring)")] = None,
     clearance: Annotated[Optional[float], also_number("radial clearance in operation, m (default: 0)")] = None,
     oil: Annotated[Optional[str], Option(help="name of the oil (`tehl oils`)")] = None,
     temperature: Annotated[Optional[float], also_number("inlet temperature, deg C")] = None,
-    dent: Annotated[Optional[str], Option(help="dent that passes: DEPTH,WIDTH,rim=HEIGHT in m, as 10e-6,0.3e-3,rim=1.2e-6; "
-                                               "rim_width=WIDTH may follow")] = None,
+    dent: Annotated[Optional[str], Option(help="dent that passes: DEPTH,WIDTH,rim=HEIGHT in m, for example "
+                                               "10e-6,0.3e-3,rim=1.2e-6; rim_width=WIDTH may follow")] = None,
     scan: Annotated[Optional[Path], Option(help="file of measured heights that pass, on a grid or along a line")] = None,
-    unit: Annotated[Optional[str], Option(help="unit of the heights of --scan, where the file does not state it")] = None,
+    unit: Annotated[Optional[str], Option(help="unit of the heights of --scan, if the file does not state it")] = None,
     pixel: Annotated[Optional[float], also_number("distance of the points of --scan in m, where the file does not state "
                                                   "it")] = None,
     on: Annotated[str, Option(help="ring that carries the dent or scan: inner or outer")] = "inner",

@@ -13,8 +13,8 @@ from tehl_cli.suite_results import Results, table, texts
 
 def register(app):
     """Add the group of commands to the app."""
-    bench = typer.Typer(no_args_is_help=True, help="Run a benchmark suite. Each suite prints a table; none fails on its "
-                                                   "numbers.")
+    bench = typer.Typer(no_args_is_help=True, help="Run a benchmark suite. Each suite prints a table; its numbers do "
+                                                   "not change the exit code.")
     bench.command()(stability)
     bench.command()(conclusions)
     bench.command()(verdict)

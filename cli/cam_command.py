@@ -25,8 +25,8 @@ def cam(
     temperature: Optional[float] = number("inlet temperature, deg C"),
     dent: Optional[str] = typer.Option(None, help="dent of the cam that passes: DEPTH,WIDTH,rim=HEIGHT in m"),
     scan: Optional[Path] = typer.Option(None, help="file of measured heights of the cam that pass"),
-    unit: Optional[str] = typer.Option(None, help="unit of the heights of --scan, where the file does not state it"),
-    pixel: Optional[float] = number("distance of the points of --scan in m, where the file does not state it"),
+    unit: Optional[str] = typer.Option(None, help="unit of the heights of --scan, if the file does not state it"),
+    pixel: Optional[float] = number("distance of the points of --scan in m, if the file does not state it"),
     scene: Optional[str] = typer.Option(None, help="scene with oil, bodies, features and numerics: built-in name, TOML file or "
                                                    "store"),
     steady: bool = typer.Option(False, "--steady", help="steady contacts without the features of --scene"),

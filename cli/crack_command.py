@@ -19,11 +19,11 @@ def register(app):
 def crack(
     store: Path = typer.Argument(..., help="store of a run with a feature on y = 0, finished or not"),
     context: typer.Context = None,
-    surface: str = typer.Option("worse", help="body to follow cracks in: a, b or worse (that of the verdict on fatigue)"),
+    surface: str = typer.Option("worse", help="body with the cracks: a, b or worse (the body that decides the verdict)"),
     side: str = typer.Option("both", help="side of the feature: entry, exit or both"),
     start: Optional[float] = number("x' of the crack mouth, m (default: place of the largest surface "
-                                    "tension); on the body without the feature, from "
-                                    "the place below it at X = 0"),
+                                    "tension); on the body without the feature, measured "
+                                    "from the place opposite the feature at X = 0"),
     angle: float = number("angle of the first segment, degrees; 90 is straight down, larger "
                           "angles lean in the rolling direction", 90.0),
     first: float = number("length of the first segment, m", 5e-6),
@@ -36,8 +36,8 @@ def crack(
                                                       "(Pa)"),
     face_friction: float = typer.Option(0.0, help="friction coefficient of the closed crack faces"),
     oil: str = typer.Option("dry", help="oil in the crack: dry, film (film pressure above the mouth, an upper bound; a number "
-                                        "as 0.3 is a share of it), sealed (trapped when the mouth closes) or flow (flow along "
-                                        "the crack)"),
+                                        "such as 0.3: this share of it), sealed (trapped when the mouth closes) or flow "
+                                        "(flow along the crack)"),
     thermal_stress: Optional[bool] = typer.Option(None, "--thermal-stress/--no-thermal-stress",
                                                   help="include thermal stress (default: as in the run)"),
     elements: int = typer.Option(12, help="number of elements of a straight crack, 6 to 200"),

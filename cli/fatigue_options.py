@@ -19,8 +19,8 @@ def _options(
     torsion_limit: Annotated[Optional[float], also_number("fatigue limit in reversed torsion, Pa (one limit fixes "
                                                           "sigma_eF; both limits also fix kappa)")] = None,
     criterion: Annotated[Optional[str], typer.Option(help="criterion: " + ", ".join(CRITERIA))] = None,
-    table: Annotated[Optional[str], typer.Option(help="strength over depth: a CSV file or a built-in table, as case-hardened "
-                                                      "('': none)")] = None,
+    table: Annotated[Optional[str], typer.Option(help="strength over depth: a CSV file or a built-in table such as "
+                                                      "case-hardened ('': none)")] = None,
     table_b: Annotated[Optional[str], typer.Option(help="table of body b, if different; none: no table")] = None,
     relation: Annotated[Optional[str], typer.Option(help="fatigue limit by the hardness of a table: "
                                                          + ", ".join(RELATIONS))] = None,
@@ -32,7 +32,7 @@ def _options(
     weibull: Annotated[Optional[float], typer.Option(help="Weibull exponent of the strength, for the stressed volume (0: "
                                                           "none)")] = None,
     depths: Annotated[Optional[str], typer.Option(help="depths to search: auto (critical depth under the feature), none, or a "
-                                                       "list in m for all points, as 50e-6,100e-6")] = None,
+                                                       "list in m for all points, for example 50e-6,100e-6")] = None,
     surfaces: Annotated[Optional[str], typer.Option(help="bodies to search: both, a or b")] = None,
     from_x: Annotated[Optional[float], typer.Option(help="use only moments with the feature after this position, in "
                                                          "half-widths a")] = None,

@@ -33,16 +33,16 @@ def run(
     set_: Optional[List[str]] = typer.Option(None, "--set", help="any scene value, dotted.key=value; repeatable"),
     grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes; NX alone if nothing varies "
                                                   "along y)"),
-    target_error: Optional[str] = typer.Option(None, help="choose the grid for this relative error, as in 1% (see `tehl bench "
-                                                          "accuracy`)"),
+    target_error: Optional[str] = typer.Option(None, help="choose the grid for this relative error, for example 1% (see "
+                                                          "`tehl bench accuracy`)"),
     steady: bool = typer.Option(False, "--steady", help="compute the steady contact only"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
     zoom: Any = typer.Option(None, parser=whole_or_auto, metavar="2|4|8|auto",
                              help="add a fine window that rides with the feature, 2, 4 or 8 times as fine as the grid; auto: "
-                                  "only if the grid needs it, as fine as it takes"),
-    run_in: Optional[int] = typer.Option(None, help="passages of run-in before the one that is stored, at most: steel of "
-                                                    "bodies with a yield stress flows"),
+                                  "no window if the grid suffices, otherwise the first factor that does"),
+    run_in: Optional[int] = typer.Option(None, help="largest number of run-in passages before the stored passage; steel "
+                                                    "of bodies with a yield stress can yield in them"),
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
                                                   help="estimate errors by coarse-grid runs (default: for all but very short "
                                                        "passages)"),
@@ -63,7 +63,7 @@ def run(
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
     curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal during the run"),
-    timing: bool = typer.Option(False, "--timing", help="print where the time of the command went"),
+    timing: bool = typer.Option(False, "--timing", help="print the time of each part of the command"),
 ):
     """Run one contact: steady start, passage of the feature, stresses, fatigue; write all results to a store.
 
@@ -130,8 +130,8 @@ def resume(
 def zoom(
     store: Path = typer.Argument(..., help="store of a finished run with a passage"),
     factor: Any = typer.Option("4", parser=whole_or_auto, metavar="0|2|4|8|auto",
-                               help="cells of the window in a cell of the grid: 2, 4 or 8; 0 removes the window; auto: only if "
-                                    "the grid needs one, as fine as it takes"),
+                               help="cells of the window in a cell of the grid: 2, 4 or 8; 0 removes the window; auto: no "
+                                    "window if the grid suffices, otherwise the first factor that does"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
     quiet: bool = typer.Option(False, "--quiet", help="print no progress"),

@@ -120,7 +120,7 @@ def _only_with_scan(**options):
 
 
 def show(
-    store: Path = typer.Argument(..., help="store of a run (finished, running or broken), a study, or the folder of a "
+    store: Path = typer.Argument(..., help="store of a run (finished, running or interrupted), a study, or the folder of a "
                                             "flank, bearing or cam"),
     as_json: bool = typer.Option(False, "--json", help="print the summary as one JSON object, as `tehl run --json` does"),
 ):
@@ -197,7 +197,7 @@ def _state(saved):
 def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank, bearing or cam"),
          out: Path = typer.Option(None, help="folder for the figures (default: beside the store; for the others: "
                                              "inside it)"),
-         quantity: str = typer.Option(None, help="study: column of its table to draw, as fatigue_Fi_max"),
+         quantity: str = typer.Option(None, help="study: column of its table to draw, such as fatigue_Fi_max"),
          format: Format = "png", dpi: Dpi = 160, width: Width = 17.0, force: Force = False,
          at: Optional[float] = typer.Option(None, help="run: position of the (first) feature to draw, in half-widths a "
                                                        "(default: -0.8, 0, 0.8 for curves, 0 for maps)"),
@@ -205,9 +205,9 @@ def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the
                                                           "those searched (default: the critical one)"),
          interference: Optional[str] = typer.Option(None, help="run: also draw the interference colours of the film: chromatic "
                                                                "(white light) or monochromatic"),
-         refractive_index: Optional[float] = typer.Option(None, help="of the oil without pressure, for --interference "
-                                                                     "(default: 1.47)"),
-         wavelength: Optional[float] = number("of monochromatic light, m (default: 589.3 nm)")):
+         refractive_index: Optional[float] = typer.Option(None, help="refractive index of the oil at p = 0, for "
+                                                                     "--interference (default: 1.47)"),
+         wavelength: Optional[float] = number("wavelength of monochromatic light, m (default: 589.3 nm)")):
     """Draw the figures of a run, a study, a flank, a bearing or a cam.
 
     Run: pressure and film along the centreline, maps, fatigue. Study: results over the swept keys. Flank: results along

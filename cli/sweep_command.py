@@ -36,7 +36,7 @@ def sweep(
     workers: Optional[int] = typer.Option(None, help="number of processes on this machine (default: one per core)"),
     threads_per_worker: Optional[int] = typer.Option(None, help="CPU threads per case (default: 1, or the cores that "
                                                                 "--workers leaves)"),
-    scheduler: Optional[str] = typer.Option(None, help="address of a running Dask scheduler, as in tcp://10.0.0.1:8786"),
+    scheduler: Optional[str] = typer.Option(None, help="address of a running Dask scheduler, for example tcp://10.0.0.1:8786"),
     keep: str = typer.Option("stores", help="stores (table and one store per case) or summary (table only)"),
     out: Optional[Path] = typer.Option(None, help="study to write or resume (default: runs/NAME.zarr, which depends on the "
                                                   "sweep only)"),

@@ -10,7 +10,7 @@ from tehl_cli.live_display import say
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 
-LIST = "values a,b,c or low:high:N or low:high:N:log, with units as in 0:50%:11"
+LIST = "values a,b,c or low:high:N or low:high:N:log, units allowed: 0:50%:11"
 
 
 def register(app):

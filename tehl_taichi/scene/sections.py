@@ -48,7 +48,7 @@ class Contact:
     kind: str = choice("line", "shape; point: circular", ("line", "point", "elliptic"))
     radius_x: float = quantity(10.6e-3, "m", "reduced radius along x, 1/R' = 1/r_a + 1/r_b", 1e-6, LARGEST_RADIUS,
                                common=(1e-4, 0.4))
-    radius_y: float = quantity(math.inf, "m", "reduced radius along y; inf: line, or point with that along x", 1e-6,
+    radius_y: float = quantity(math.inf, "m", "reduced radius along y; inf: line, or a circular contact", 1e-6,
                                LARGEST_RADIUS_Y, infinite=True, usual=10e-3)
     load: float = quantity(0.0, "N/m or N", "line: N/m, point and elliptic: N; 0: not given", 0.0, 1e10)
     hertz_pressure: float = quantity(0.0, "Pa", "Hertz pressure instead of a load; 0: not "
@@ -110,7 +110,7 @@ class Body:
     alpha: float = quantity(12e-6, "1/K", "thermal expansion, for the thermal stress", 0.0, 1e-3)
     yield_stress: float = quantity(0.0, "Pa", "uniaxial yield stress, with which the von Mises stress is compared; 0: not "
                                               "given, 2.2 GPa of hardened bearing steel", 0.0, 1e11, usual=2.2e9, least=1e6)
-    hardening: str = choice("perfect", "hardening of the steel that flows in run-in (`tehl laws`)", tuple(HARDENINGS))
+    hardening: str = choice("perfect", "hardening law of steel that yields in run-in (`tehl laws`)", tuple(HARDENINGS))
 
     def __post_init__(self):
         check(self, "bodies")
@@ -242,7 +242,7 @@ class Fatigue:
     torsion_limit: float = quantity(0.0, "Pa", "fatigue limit in reversed torsion; 0: not given", 0.0, LARGEST_LIMIT,
                                     usual=USUAL_LIMIT, least=LEAST_LIMIT)
     source: str = text("example values, set your own", "source of kappa and endurance", one_line=False)
-    limit_of: str = choice("specimen", "what endured the limit; specimen: in bending or torsion, without residual stress; "
+    limit_of: str = choice("specimen", "test behind the limit; specimen: in bending or torsion, without residual stress; "
                                        "contact: a smooth rolling contact, with its residual stress", ("specimen", "contact"))
     table: str = text("", "strength over depth: CSV file (depth_mm, hardness_HV or limit_MPa; kappa, yield_stress_MPa, "
                           "residual_xx_MPa, residual_yy_MPa), its path relative to the scene file, or a built-in one "
@@ -365,8 +365,8 @@ class Time:
     x_end: float = quantity(math.inf, "a", "last position of the feature; inf: behind the contact", -20.0, infinite=True)
     courant: float = quantity(1.0, "cells", "distance that the feature moves in a step", 0.05, 4.0)
     steps: int = count(-1, "stop after this many steps; -1: all, 0: the steady start alone", -1, 10**7)
-    run_in: int = count(0, "run-in: passages in which the steel flows, before the one that is stored and judged, at most; 0: "
-                           "elastic bodies", 0, 100)
+    run_in: int = count(0, "largest number of run-in passages, in which steel yields, before the stored and assessed passage; "
+                           "0: elastic bodies", 0, 100)
 
     def __post_init__(self):
         check(self, "time")
@@ -437,9 +437,9 @@ class Zoom:
     """
 
     factor: int = count_of(0, "cells of the window in a cell of the grid, along each axis; 0: no window", 0, 2, 4, 8)
-    width_x: float = quantity(0.0, "a", "width of the window along x; 0: of what the feature changes", 0.0, 4.0, usual=0.8,
+    width_x: float = quantity(0.0, "a", "width of the window along x; 0: as the feature needs", 0.0, 4.0, usual=0.8,
                               least=0.1)
-    width_y: float = quantity(0.0, "a", "width of the window along y; 0: of what the feature changes", 0.0, 8.0, usual=0.8,
+    width_y: float = quantity(0.0, "a", "width of the window along y; 0: as the feature needs", 0.0, 8.0, usual=0.8,
                               least=0.1)
     from_x: Union[float, str] = quantity(AUTO, "a", "first position of the feature with a window; auto: shortly before the "
                                          "grid no longer resolves the pressure; -inf: its whole path", infinite=True, usual=0.5)

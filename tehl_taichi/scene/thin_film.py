@@ -35,8 +35,8 @@ def warnings(scene):
                f"({SMOOTHEST * 1e9:g} nm); real surfaces touch there, but this model is smooth")
     elif part < 1:
         where = "at the centre" if thinnest == film else "in the side lobes"
-        text = (f"the film formula has {thinnest:.2g} m {where}, {part:.2g} of what {scene.grid.nx} columns resolve; the "
-                f"surfaces may touch on this grid and the start may not converge; {remedy(scene)}")
+        text = (f"the film formula has {thinnest:.2g} m {where}, {part:.2g} of the film that {scene.grid.nx} columns resolve; "
+                f"the surfaces may touch on this grid and the start may not converge; {remedy(scene)}")
         yield with_data(text, remedy(scene), film_m=thinnest, carried=part)
 
 

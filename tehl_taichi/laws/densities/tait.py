@@ -50,7 +50,7 @@ def refused(oil, Gamma, p):
 
 TAIT = DensityLaw(
     name="tait", says="1/((1 + a_V (Gamma - 40)) (1 - ln(1 + (1 + K1) p/K)/(1 + K1))), K = K00 exp(-beta_K T), T in K",
-    source="Tait's equation as Bair 2006 (Tribology Letters 22) writes it; numbers: his of squalane, from memory, unchecked",
+    source="Tait's equation in the form of Bair 2006 (Tribology Letters 22); numbers: for squalane, from memory, unchecked",
     compression=compression, expansion=expansion, expansivity=expansivity, refused=refused,
     numbers={"rho0": RHO0, "tait_K00": quantity(8.658e9, "Pa", "bulk modulus at p = 0, continued to 0 K", 1e9, 1e12),
              "tait_beta_K": quantity(6.332e-3, "1/K", "fall of the bulk modulus with temperature", 0.0, 0.02),
