@@ -17,7 +17,7 @@ __all__ = ["fatigue"]
 
 def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, threads: int | None = None,
             until: float | None = None, **constants: Any) -> "SearchResult | Points":
-    """As :func:`tehl_taichi.fatigue`."""
+    """Search fatigue: see :func:`tehl_taichi.fatigue`."""
     if scene is None and hasattr(of, "store"):  # a Run knows up to where its grid resolves the pressure, and its error bars
         return of.fatigue(progress=progress, threads=threads, until=until, **constants)
 

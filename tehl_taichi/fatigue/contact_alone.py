@@ -1,4 +1,4 @@
-"""The contact alone: what the smooth bodies carry under the steady start, at the surface and below, wherever they pass it."""
+"""The contact alone: stresses and index of the smooth bodies under the steady start, at and below the surface."""
 
 from dataclasses import dataclass
 
@@ -12,18 +12,19 @@ from tehl_taichi.fatigue.stress.steady_sweep import SteadySweep
 @dataclass(frozen=True)
 class ContactAlone:
     """Numbers of one body without features ("Fi_max", "findley_stress_max_Pa", "depth_m", "surface_Fi_max" of its surface, and
-    whether the shear of the film counts: "shear_counted") and Findley stress f (Pa) at the surface and at the depths of
-    :func:`tehl_taichi.fatigue.depth_profile.ladder`."""
+    "shear_counted": the shear of the film is included), and Findley stress f (Pa) at the surface and at the depths of
+    :func:`tehl_taichi.fatigue.depth_profile.ladder`.
+    """
 
     summary: dict
     f: np.ndarray
 
 
 def search(scene, reader, surface):
-    """The :class:`ContactAlone` of the body of `surface`, of the middle row of the contact, over the whole way through it.
+    """The :class:`ContactAlone` of the body of `surface`, for the middle row of the contact and its whole passage.
 
-    scene: its constants count, its moments and features do not; reader: of a run, of which entry 0 is the steady start. Below
-    the surface where fatigue.depths is not empty.
+    scene: its constants matter, its moments and features do not; reader: of a run, whose entry 0 is the steady start. Depths
+    below the surface are included unless fatigue.depths is empty.
     """
     sweep = SteadySweep(scene, reader, surface)
     history = _histories(sweep, [0.0])[0]
@@ -47,5 +48,5 @@ def search(scene, reader, surface):
 
 
 def _histories(sweep, depths):
-    """(depths, 1, moments, 6) Pa; of a line contact by its row as an endless line."""
+    """Histories (depths, 1, moments, 6), Pa; the row of a line contact is treated as an endless line."""
     return histories_of(sweep, depths, [(sweep.middle, sweep.line)])[0]

@@ -1,8 +1,9 @@
-"""Fewer moments of a stress history, for planes near one: those that may have the largest shear or normal stress there.
+"""Reduction of the moments of a stress history for planes near a given one: those that may have the largest shear or normal
+stress.
 
-A plane that turns by an angle changes the shear and the normal stress of a moment by no more than that angle times the range of
-its principal stresses (Mohr's circle). What is below the best by more than both change is below it on all planes around, and a
-circle around the others' shear about the same centre is a circle around it.
+A rotation of the plane by an angle changes the shear and the normal stress of a moment by at most that angle times the range of
+its principal stresses (Mohr's circle). A moment that is below the best by more than both changes stays below it on all nearby
+planes, and a circle around the shear of the others about the same centre also encloses it.
 """
 
 from tehl_taichi.engine.language import ti
@@ -11,8 +12,9 @@ from tehl_taichi.fatigue.plane_components import stress, traction
 
 @ti.func
 def deciding(S: ti.template(), some: ti.template(), row, count, n, middle, reach):
-    """Sort the moments some[row, :count] so that those come first which may count on planes within `reach` (rad) of n, with
-    shear from that of the stress `middle`; returns how many."""
+    """Sort the moments some[row, :count] so that those that may matter on planes within `reach` (rad) of n come first, with
+    shear relative to that of the stress `middle`; returns their number.
+    """
     far, top = -1e300, -1e300
     for q in range(count):
         shear, normal, turned = ends(stress(S, row, some[row, q]) - middle, n, reach)
@@ -31,7 +33,7 @@ def deciding(S: ti.template(), some: ti.template(), row, count, n, middle, reach
 
 @ti.func
 def ends(s, n, reach):
-    """Shear and normal stress of s on the plane n, and what both may change by on planes within `reach`."""
+    """Shear and normal stress of s on the plane n, and their largest changes on planes within `reach`."""
     a, b, c, normal = traction(s, n[0], n[1], n[2])
     mean = (s[0] + s[1] + s[2]) / 3
     x, y, z = s[0] - mean, s[1] - mean, s[2] - mean

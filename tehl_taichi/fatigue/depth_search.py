@@ -1,8 +1,8 @@
-"""Search of the critical depth below the surface: under some rows first, and where a surface is not symmetric under rows that
-look bad at any depth (:mod:`tehl_taichi.fatigue.candidate_rows`), too, and at all points of the depth found there.
+"""Search of the critical depth below the surface.
 
-The row of the worst point below is not always that of the surface: of a scanned bump between two rows of 128x32 cells the one
-had Fi 1.04, the other 1.85.
+First below some rows. On a surface that is not symmetric also below rows with a large rough measure at any depth
+(:mod:`tehl_taichi.fatigue.candidate_rows`), and at all points of the depth found there. The row of the worst subsurface point
+is not always that of the surface: of a scanned bump between two rows of 128x32 cells one row had Fi 1.04, the other 1.85.
 """
 
 from dataclasses import dataclass
@@ -16,9 +16,9 @@ from tehl_taichi.fatigue.worst_point import worst_of
 
 @dataclass(frozen=True)
 class DepthResult:
-    """Results of a search: profiles under rows (:class:`tehl_taichi.fatigue.depth_profile.Profile`), those of the early moments
-    where they are wanted, the plane that was searched at all its points, and that of the early moments at their own worst depth
-    (or None)."""
+    """Results of a search: profiles below rows (:class:`tehl_taichi.fatigue.depth_profile.Profile`), those of the early moments
+    if requested, the plane that was searched at all points, and that of the early moments at their own worst depth (or None).
+    """
 
     profiles: list
     before: list
@@ -32,7 +32,7 @@ class DepthResult:
 
     @property
     def mises(self):
-        """Largest von Mises stresses of all that was searched."""
+        """Largest von Mises stress of every searched part."""
         return [profile.mises for profile in self.profiles] + ([self.plane.mises] if self.plane else [])
 
     @property
@@ -43,8 +43,11 @@ class DepthResult:
 
 
 def search(scene, passage, layers, early, progress):
-    """The DepthResult below the rows of the feature and of the worst points of `layers` (Layer); on a whole domain at all
-    points of the worst depth, too, and below the rows of what is worst there; early moments have a worst depth of their own."""
+    """The DepthResult below the rows of the feature and of the worst points of `layers` (Layer).
+
+    On a whole domain also at all points of the worst depth, and below the rows of its worst points; early moments have their
+    own worst depth.
+    """
     rows = _rows(passage, (scene.features[0].y, *(place for found in layers for place in _worst(found))))
     if passes(passage):
         rows = list(dict.fromkeys(rows + candidate_rows.rows(passage, depth_profile.ladder(passage), _windows(early),
@@ -60,7 +63,7 @@ def search(scene, passage, layers, early, progress):
 
 
 def _planes(scene, passage, profiles, before, early, progress):
-    """(Layer at the worst depth of all moments, Part at that of the early ones or None)."""
+    """(Layer at the worst depth of all moments, EarlyLayer at that of the early ones or None)."""
     plane = layer(scene, passage, _depth(profiles), progress, early)
     if early is None:
         return plane, None
@@ -69,23 +72,25 @@ def _planes(scene, passage, profiles, before, early, progress):
 
 
 def _depth(profiles):
-    """Depth of the worst of their points, m."""
+    """Depth (m) of the worst point of profiles."""
     return worst_of(_points(profiles)).depth
 
 
 def passes(passage, early=None):
-    """Passes of stresses and search after the first rows: none on a half domain, whose worst row is that of the feature."""
+    """Number of passes of stresses and search after the first rows: 0 on a half domain, whose worst row is that of the
+    feature.
+    """
     each = 2 if early is None else 3  # the stresses of a second plane
     return each * len(passage.row_blocks()) + 3 if passage.reader.y[0] < 0 else 0
 
 
 def _worst(found):
-    """Places across of the worst points of a layer."""
+    """Positions y of the worst points of a layer."""
     return [one.worst.y for one in (found, found.early) if one]
 
 
 def _rows(passage, places):
-    """Rows nearest to these places across, each once."""
+    """Rows nearest to these positions y, each once."""
     return list(dict.fromkeys(int(np.argmin(np.abs(passage.reader.y - at))) for at in places))
 
 
@@ -97,10 +102,10 @@ def _under(passage, rows, early, progress):
 
 
 def _windows(early):
-    """Moments that are searched apart: all of them, and the early ones where they are wanted."""
+    """Groups of moments that are searched separately: all, and the early ones if requested."""
     return [slice(None)] + [early] * (early is not None)
 
 
 def _points(profiles):
-    """Their worst points."""
+    """Worst points of profiles."""
     return [profile.worst for profile in profiles]

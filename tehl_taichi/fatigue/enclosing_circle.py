@@ -75,8 +75,8 @@ def pivot(px, py, m, fx, fy):
 
 @ti.func
 def enclose(a: ti.template(), b: ti.template(), row, steps, i0, i1):
-    """Radius of the smallest circle around the points (a, b)[row, :steps], and the points on it with the weights that
-    give its centre; i0, i1: two far points to start from.
+    """Smallest circle around the points (a, b)[row, :steps]: its radius, and the points on it with the weights that give its
+    centre. i0, i1: two distant points to start from.
 
     Add the farthest point, solve the problem of at most four points exactly, repeat.
     """
@@ -106,7 +106,7 @@ def enclose(a: ti.template(), b: ti.template(), row, steps, i0, i1):
 
 @ti.func
 def weights(px, py, m, c):
-    """Weights of the m points on the circle c that add up to its centre."""
+    """Weights of the m points on the circle c whose weighted sum is its centre."""
     out = vec3(0.5, 0.5, 0.0)
     if m == 3:
         ux, uy, vx, vy = px[1] - px[0], py[1] - py[0], px[2] - px[0], py[2] - py[0]

@@ -1,4 +1,4 @@
-"""Fatigue of stress histories that come from elsewhere: a finite element model, a strain gauge, another contact program."""
+"""Fatigue of given stress histories: from a finite element model, a strain gauge, another contact program."""
 
 from dataclasses import dataclass
 
@@ -13,8 +13,9 @@ LARGEST = Number("", "Pa", -1e12, 1e12, usual=4e8, least=1e5)
 
 @dataclass(frozen=True)
 class Points:
-    """Results at every point: f (points,) Pa, unit normals (points, 3) of the critical planes (n_z >= 0; nan where there
-    is none), and the limit (Pa) at which the index is 1."""
+    """Results at every point: f (points,) Pa, unit normals (points, 3) of the critical planes (n_z >= 0; nan without one), and
+    the limit (Pa) at which the index is 1.
+    """
 
     f: np.ndarray
     normals: np.ndarray
@@ -30,12 +31,12 @@ class Points:
 
     @property
     def theta(self):
-        """Degrees (points,) between the critical plane and the surface (the plane z = 0)."""
+        """Angles (points,) between the critical plane and the surface (the plane z = 0), degrees."""
         return findley.angles(self.normals)[0]
 
     @property
     def phi(self):
-        """Degrees (points,) from x to the direction in the surface of the critical plane's normal."""
+        """Angles (points,) from x to the surface direction of the critical plane's normal, degrees."""
         return findley.angles(self.normals)[1]
 
     @property
@@ -45,21 +46,22 @@ class Points:
 
 
 def are_stresses(of):
-    """Whether `of` is an array, or what numpy takes for one (not a run, a reader or snapshots)."""
+    """Whether `of` is an array or a list of numbers (not a run, a reader or snapshots)."""
     if isinstance(of, (list, tuple)):
         return bool(of) and not hasattr(of[0], "fields")
     return hasattr(of, "__array__")
 
 
 def _check_size(stresses):
-    """Refuse stresses that make sense in another unit only: whoever has a load has some MPa. Raises SceneError."""
+    """Refuse stresses that make sense only in another unit: any load causes some MPa. Raises SceneError."""
     if stresses.size and np.isfinite(stresses).all():
         LARGEST.check("the largest of the given stresses", float(stresses.flat[np.argmax(np.abs(stresses))]))
 
 
 def search(stresses, constants):
-    """:class:`Points` of stresses (points, times, 6) or (times, 6) Pa; constants: a scene's
-    :class:`tehl_taichi.scene.sections.Fatigue`. Raises SceneError for another shape, or for what is no number."""
+    """The :class:`Points` of stresses (points, times, 6) or (times, 6), Pa. Raises SceneError for another shape or for values
+    that are no numbers. constants: a scene's :class:`tehl_taichi.scene.sections.Fatigue`.
+    """
     try:
         stresses = np.asarray(stresses, float)
         _check_size(stresses)

@@ -1,12 +1,14 @@
-"""Peaks of the index on a surface, apart from each other. On a rough surface the critical point alone does not show whether
-another asperity is harmless."""
+"""Separate peaks of the index on a surface. On a rough surface the critical point alone does not show whether another asperity
+is harmless.
+"""
 
 import numpy as np
 
 
 def worst_places(x, y, index, apart, most):
-    """[(i, j)] of at most so many peaks of index (x, y), the largest first, none nearer than `apart` (as x and y) to a larger
-    one; x: (nx,), y: (ny,)."""
+    """[(i, j)] of at most `most` peaks of index (x, y), the largest first, each at least `apart` (in the unit of x and y) from
+    a larger one; x: (nx,), y: (ny,).
+    """
     left, found = np.where(_peaks(index), index, -np.inf), []
     while len(found) < most and np.isfinite(left).any():
         i, j = np.unravel_index(int(np.argmax(left)), left.shape)
@@ -16,13 +18,13 @@ def worst_places(x, y, index, apart, most):
 
 
 def around(x, y, values, place, within):
-    """The largest of values (x, y) within so far of a place."""
+    """Largest of values (x, y) within a distance of a place."""
     i, j = place
     return float(values[np.hypot((x - x[i])[:, None], y - y[j]) <= within].max())
 
 
 def _peaks(index):
-    """Points without a larger neighbour; neighbours beyond the edge do not count."""
+    """Mask of points without a larger neighbour, including those at the edge."""
     wide = np.pad(index, 1, constant_values=-np.inf)
     nx, ny = index.shape
     return np.all([index >= wide[i : i + nx, j : j + ny] for i in range(3) for j in range(3)], axis=0)

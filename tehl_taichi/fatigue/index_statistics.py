@@ -1,4 +1,6 @@
-"""Distribution of the index over the points of a body that features pass: it settles where the largest one does not."""
+"""Distribution of the index over the points of a body that features pass over; it converges where the largest index does
+not.
+"""
 
 import numpy as np
 
@@ -10,8 +12,9 @@ SEEN = 2.0  # times the smallest searched depth, half a cell: nearer to the surf
 
 
 def weights(passage):
-    """(x', rows): how many points of the whole surface each point of the window stands for: 0 beside what features pass, 2 on
-    the half that is its mirror. All of the window where features are smaller than a cell."""
+    """Weights (x', rows): number of surface points that each point of the window represents: 0 beside the path of the features,
+    2 on a half domain. If features are smaller than a cell, the whole window counts.
+    """
     inside = np.zeros((passage.x.size, passage.y.size))
     for feature in passage.scene.features:
         inside[np.ix_(*_under(passage, feature))] = 1.0
@@ -21,7 +24,7 @@ def weights(passage):
 
 
 def _under(passage, feature):
-    """(columns, rows) that lie under a feature at some moment in the contact."""
+    """Mask (columns, rows) of points below a feature at some moment in the contact."""
     ends = passage.passed(feature)
     x, y = passage.x, passage.y
     across = np.full(y.size, True) if feature.transverse else np.abs(y - feature.y) <= feature.reach_y
@@ -48,7 +51,7 @@ def exceeded(Fi, counts):
 
 
 def sample(counts):
-    """(x', rows): whether the cycles of a point are counted: SAMPLE of them at most, evenly spread."""
+    """Mask (x', rows) of points whose cycles are counted: at most SAMPLE of them, evenly spread."""
     points = np.flatnonzero(counts)
     out = np.zeros(counts.size, bool)
     out[points[:: max(1, -(-points.size // SAMPLE))]] = True
@@ -56,9 +59,10 @@ def sample(counts):
 
 
 def below(passage, profiles, counts):
-    """Statistics at DEPTHS of the points under the rows of `profiles` (:class:`tehl_taichi.fatigue.depth_profile.Profile`):
-    "by_depth", and those of the depth with the largest 99th percentile, of a cell at least; between the searched depths linear
-    in their logarithm."""
+    """Statistics at DEPTHS below the rows of `profiles` (:class:`tehl_taichi.fatigue.depth_profile.Profile`): "by_depth", and
+    those of the depth with the largest 99th percentile, at least one cell deep. Between the searched depths the stress is
+    linear in the logarithm of the depth.
+    """
     rows = [int(np.argmin(np.abs(passage.y - profile.worst.y))) for profile in profiles]
     each = np.concatenate([counts[:, row] if counts[:, row].any() else np.ones(len(counts)) for row in rows])
     logs, f = np.log(profiles[0].depths), np.concatenate([profile.f for profile in profiles], axis=1)

@@ -1,4 +1,4 @@
-"""Numbers by which searches are judged: the surface and what lies below it, of the whole passage or of its resolved part."""
+"""Numbers that decide a verdict: at and below the surface, of the whole passage or of its resolved part."""
 
 from tehl_taichi.fatigue import material_length
 from tehl_taichi.fatigue.pressure_alone import searched
@@ -8,15 +8,18 @@ ABOVE, WITHIN, BELOW = 1, 0, -1
 
 
 def judged(Fi, error=None):
-    """Whether an index is above 1, below it, or 1 within its error (None: not known)."""
+    """State of an index: above 1, below it, or 1 within its error (None: unknown)."""
     if abs(Fi - 1) <= (error or 0.0):
         return WITHIN
     return ABOVE if Fi > 1 else BELOW
 
 
 def deciding(searches):
-    """({surface: summary that decides}, whether these are of the resolved part) of {surface: summary of its search}: where the
-    grid does not resolve every pressure the part of the passage before that, unless averaged stresses settle the answer."""
+    """({surface: summary that decides}, whether they are of the resolved part) of {surface: summary of its search}.
+
+    If the grid does not resolve every pressure, the part of the passage before that decides, unless averaged stresses settle
+    the answer.
+    """
     if any(searched(one).get("rough") for one in searches.values()):
         return searches, False
     if all("resolved" in one for one in searches.values()) and not _settled(searches):
@@ -25,25 +28,26 @@ def deciding(searches):
 
 
 def worst_layer(searches):
-    """The :func:`layers` entry by which {surface: summary of its search} are judged: the worst of what decides."""
+    """The :func:`layers` entry that decides the verdict on {surface: summary of its search}: the worst."""
     return max(all_layers(deciding(searches)[0]), key=lambda one: (judged(*one[1:]), one[1]))
 
 
 def _settled(searches):
-    """Whether averaged stresses give what the pointwise ones do not: the errors of all that is judged."""
+    """Whether averaged stresses give the errors that the pointwise ones lack, for all deciding numbers."""
     averaged = any(length for one in searches.values() for _, length in material_length.leading(searched(one)))
     return averaged and all(error is not None for *_, error in all_layers(searches))
 
 
 def all_layers(searches):
-    """The :func:`layers` of each {surface: summary of its search}; surfaces are named where there are two."""
+    """The :func:`layers` of each {surface: summary of its search}; with two surfaces the texts name them."""
     one = len(searches) == 1
     return [layer for name, found in searches.items() for layer in layers(found, "the surface" if one else f"surface {name}")]
 
 
 def layers(fatigue, surface="the surface"):
-    """[(where in words, Fi, its error or None)] of the surface and of what lies below it; of a search or of its part. Of rough
-    surfaces the 99th percentile."""
+    """[(text of the place, Fi, its error or None)] at and below the surface, of a search or its part. For rough surfaces Fi is
+    the 99th percentile.
+    """
     fatigue = searched(fatigue)
     if fatigue.get("rough"):
         return _percentile_layers(fatigue, surface)
@@ -56,7 +60,7 @@ def _where(part, surface):
 
 
 def _over(length):
-    """Behind a place whose stresses are averaged over a length (m; 0: not)."""
+    """Text after a place whose stresses are averaged over `length` (m); "" for length 0."""
     return f" (stresses averaged over {micrometres(length)} µm)" if length else ""
 
 
@@ -69,5 +73,5 @@ def _percentile_layers(fatigue, surface):
 
 
 def error_of(part, key):
-    """Error bar of a number of a part, None where it is unknown."""
+    """Error bar of a number of a part, None if it is unknown."""
     return part.get("error", {}).get(key)

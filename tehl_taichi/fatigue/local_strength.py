@@ -1,4 +1,4 @@
-"""Numbers and arrays of strength over depth that a search reports; none where the scene has no table."""
+"""Strength over depth in the results of a search: numbers and arrays; none without a table."""
 
 import numpy as np
 
@@ -6,8 +6,9 @@ from tehl_taichi.scene.strength.table import YIELD
 
 
 def of_point(passage, point):
-    """Strength at a point below the surface of a StressHistories: with a table "sigma_eF_Pa", "kappa_F"; with that, or after
-    run-in, "residual_xx_Pa", "residual_yy_Pa"."""
+    """Strength at a subsurface point of a StressHistories: with a table "sigma_eF_Pa", "kappa_F"; with a table or after run-in
+    "residual_xx_Pa", "residual_yy_Pa".
+    """
     table, left = passage.strength.table, passage.left
     if table is None and left is None:
         return {}
@@ -20,10 +21,10 @@ def of_point(passage, point):
 
 
 def limits(strength, depths):
-    """sigma_eF (Pa) at depths (m), None without a table."""
+    """Limits sigma_eF (Pa) at depths (m), None without a table."""
     return None if strength.table is None else np.array(strength.limits(depths))
 
 
 def varies_in_yield(strength):
-    """Whether the yield stress follows from a table."""
+    """Whether a table gives the yield stress."""
     return strength.table is not None and strength.table.has(YIELD)

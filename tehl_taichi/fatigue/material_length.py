@@ -1,7 +1,7 @@
-"""The index of stresses averaged over fatigue.length, beside the pointwise one.
+"""Second index, of stresses averaged over fatigue.length.
 
-A jump of the surface shear, as at the front of a rolling asperity, has no largest stress: pointwise it grows with every finer
-grid, averaged over a length it settles (docs/decisions/10-material-length.md).
+A jump of the surface shear, as at the front of a rolling asperity, has no largest stress: the pointwise stress grows with every
+finer grid, the averaged one converges (docs/decisions/10-material-length.md).
 """
 
 import numpy as np
@@ -16,13 +16,14 @@ from tehl_taichi.scene import material_length
 
 
 def counts(scene, x):
-    """Whether such an index is given on nodes x (m)."""
+    """Whether there is such an index on nodes x (m)."""
     return not material_length.why_not(scene, (x[-1] - x[0]) / (len(x) - 1))
 
 
 def part(scene, surface, reader, centres, progress):
-    """Numbers of the search of one body by averaged stresses, "averaged" of its summary; centres: of the first feature, m;
-    the others as those of :func:`tehl_taichi.fatigue.assessment.run`."""
+    """Part "averaged" of the summary of one body; centres: of the first feature, m; other arguments as in
+    :func:`tehl_taichi.fatigue.assessment.run`.
+    """
     passage = StressHistories(scene, averaged_reader(reader, scene.fatigue.length), np.asarray(centres), surface=surface)
     passage.worst, passage.steel = True, False
     progress = PassProgress.of(progress, scene, passage)
@@ -35,14 +36,15 @@ def part(scene, surface, reader, centres, progress):
 
 
 def leading(found):
-    """Parts of a search's summary at the surface and below it: [(part, length in m that its stresses are averaged over, or 0)];
-    the averaged one where its error alone is known."""
+    """Parts of a search's summary at and below the surface: [(part, length (m) over which its stresses are averaged, or 0)];
+    the averaged part if only its error is known.
+    """
     wide = found.get("averaged", {})
     pairs = [(found, wide), (found.get("below"), wide.get("below"))]
     return [(own, 0.0) if not _alone_known(own, other) else (other, wide["length_m"]) for own, other in pairs if own]
 
 
 def _alone_known(own, other):
-    """Whether the error of the averaged index is known, and that of the pointwise one is not."""
+    """Whether the error of the averaged index is known and that of the pointwise one is not."""
     errors = [(part or {}).get("error", {}).get("Fi_max") for part in (own, other)]
     return errors[0] is None and errors[1] is not None

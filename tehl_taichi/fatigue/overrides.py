@@ -1,4 +1,4 @@
-"""The numbers of a fatigue search that can be other ones than those of the scene."""
+"""Constants of a fatigue search that differ from the scene."""
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.scene import SceneError, builtin, keys
@@ -12,8 +12,9 @@ OF_POINTS = ("bending_limit", "torsion_limit", "criterion", "endurance", "kappa"
 
 
 def agreed(scene, reader):
-    """The scene (None: that which the reader knows) of a run or of snapshots. Raises SceneError where it is another one than
-    theirs in more than fatigue and what is stored of it."""
+    """The scene (None: that of the reader) of a run or of snapshots. Raises SceneError if it differs from theirs in anything
+    but fatigue and its storage.
+    """
     own, scene = getattr(reader, "scene", None), None if scene is None else builtin.scene_or_builtin(scene)
     if scene is None or own is None:
         _check_nodes(scene, reader)
@@ -28,7 +29,7 @@ def agreed(scene, reader):
 
 
 def _check_nodes(scene, snapshots):
-    """Refuse snapshots of another grid than that of the scene."""
+    """Refuse snapshots on another grid than that of the scene."""
     if scene is not None and isinstance(snapshots, list) and snapshots and hasattr(snapshots[0], "x"):
         found, requested = (snapshots[0].x.size, snapshots[0].y.size), (scene.grid.nx + 1, scene.rows + 1)
         if found != requested:
@@ -38,7 +39,7 @@ def _check_nodes(scene, snapshots):
 
 
 def changed(scene, constants):
-    """The scene with these constants of its fatigue (None: its own). Raises SceneError."""
+    """The scene with these fatigue constants (None: its own). Raises SceneError."""
     if scene is None:
         raise SceneError("snapshots need their scene: tehl_taichi.fatigue(snapshots, scene)")
     changes = _given(constants)
@@ -46,8 +47,9 @@ def changed(scene, constants):
 
 
 def of_points(constants, scene=None):
-    """:class:`tehl_taichi.scene.sections.Fatigue` of stresses without a passage: that of the scene, if there is one, with these
-    constants. Raises SceneError."""
+    """The :class:`tehl_taichi.scene.sections.Fatigue` for stresses without a passage: that of the scene, if any, with these
+    constants. Raises SceneError.
+    """
     values = {key.partition(".")[2]: value for key, value in _given(constants).items()}
     scene = None if scene is None else builtin.scene_or_builtin(scene)
     own = scene.fatigue if scene is not None else Fatigue()
@@ -59,8 +61,9 @@ def of_points(constants, scene=None):
 
 
 def reader_of(of, function):
-    """Reader of a run, or a list of snapshots. Raises SceneError for anything else, StoreError for a run whose law is not
-    installed here."""
+    """Reader of a run, or a list of snapshots. Raises SceneError for other objects, StoreError for a run whose law is not
+    installed here.
+    """
     reader = getattr(of, "store", of)
     if lacks := getattr(reader, "lacks", ""):
         raise StoreError(lacks)
@@ -74,5 +77,5 @@ def reader_of(of, function):
 
 
 def _given(constants):
-    """{full key: value} of those that are given. Raises SceneError where two of them contradict each other."""
+    """{full key: value} of the given constants. Raises SceneError if two of them contradict each other."""
     return resolve_named({f"fatigue.{key}": value for key, value in constants.items() if value is not None})

@@ -1,11 +1,12 @@
-"""Progress of a fatigue search: its consecutive passes are reported as one count."""
+"""Progress of a fatigue search: its consecutive passes are reported as one."""
 
 from tehl_taichi.fatigue.depth_search import passes
 
 
 class PassProgress:
-    """Called with (done, total) parts of one of `passes` passes after another; calls progress(done, total) for all of them: in
-    hundredths of a pass, from 0 to the same total, never less than before. progress: or None."""
+    """Called with (done, total) parts of each of `passes` passes; calls progress(done, total) in hundredths of a pass, with one
+    total and never decreasing. progress: or None.
+    """
 
     EACH = 100
 
@@ -15,8 +16,9 @@ class PassProgress:
 
     @classmethod
     def of(cls, progress, scene, passage, early=None):
-        """Progress of a :func:`tehl_taichi.fatigue.assessment.run`: stresses and search of every block of rows at every depth
-        listed, then those under rows where the worst depth is looked for."""
+        """Progress of a :func:`tehl_taichi.fatigue.assessment.run`: stresses and search of every block of rows at every listed
+        depth, then those below rows for the worst depth.
+        """
         ladder = bool(scene.fatigue.depths)
         layers = 1 + len(scene.fatigue.listed)
         return cls(progress, 2 * layers * len(passage.row_blocks()) + (2 + passes(passage, early)) * ladder)
@@ -26,7 +28,7 @@ class PassProgress:
         self.through += self.EACH * (done == total)
 
     def end(self):
-        """All is done, also what was not needed."""
+        """Report the end, including parts that were not needed."""
         self._report(self.total)
 
     def _report(self, done):

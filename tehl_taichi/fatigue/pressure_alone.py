@@ -1,4 +1,4 @@
-"""Fatigue of a run whose film carries more shear than any oil: no index, and the index of its pressure alone."""
+"""Fatigue of a run whose film has more shear than any oil: no index, and the index of its pressure alone."""
 
 CONSTANTS = ("surface", "carries_feature", "kappa_F", "sigma_eF_Pa", "criterion")
 WITHOUT = {"fatigue.shear": False, "fatigue.thermal_stress": False}  # changes of a scene: no shear on the surface, nor its heat
@@ -10,17 +10,17 @@ def constants_of(found):
 
 
 def without_index(found, why):
-    """The summary of such a run. found: summary of the search with the changes WITHOUT; why: there is no index, in words."""
+    """Summary of such a run. found: summary of the search with the changes WITHOUT; why: reason why there is no index."""
     index = {"Fi_max": None, "findley_stress_max_Pa": None}
     return {**index, "unknown": dict.fromkeys(index, why), **constants_of(found),
             "thermal_stress": False, "pressure_alone": found}
 
 
 def searched(summary):
-    """The numbers that a search found: the summary itself, or those of the pressure alone."""
+    """Numbers of a search: the summary itself, or those of the pressure alone."""
     return summary.get("pressure_alone", summary)
 
 
 def why_none(summary):
-    """Why there is no index, "" where there is one."""
+    """Reason why there is no index, "" if there is one."""
     return summary["unknown"]["Fi_max"] if "pressure_alone" in summary else ""

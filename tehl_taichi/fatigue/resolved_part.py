@@ -1,4 +1,4 @@
-"""Search of the early moments, before the grid no longer resolves the pressure: the answer rests on them."""
+"""Search of the early moments, while the grid resolves the pressure; the verdict rests on them."""
 
 from tehl_taichi.fatigue import local_strength, result_arrays
 from tehl_taichi.fatigue.search_result import SearchResult

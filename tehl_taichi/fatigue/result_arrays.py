@@ -14,7 +14,7 @@ def of_surface(surface, passage, limit, counts):
 
 
 def of_plane(plane):
-    """Arrays of the plane below that was searched at all its points."""
+    """Arrays of the subsurface plane that was searched at all points."""
     return {"worst_depth": np.array([plane.depth]), "findley_stress_at_worst_depth": plane.f}
 
 
@@ -25,8 +25,9 @@ def of_layers(layers):
 
 
 def of_limits(strength, depths, plane, layers):
-    """The fatigue limit where stresses lie: under rows (the surface, then depths in m), of the plane (or None), of layers that
-    are listed; nothing without a table."""
+    """Fatigue limits at the depths of the stresses: below rows (the surface, then depths in m), of the plane (or None), of
+    listed layers; {} without a table.
+    """
     if strength.table is None:
         return {}
     found = {"limit_under_row": local_strength.limits(strength, [0.0, *depths])}
@@ -37,7 +38,7 @@ def of_limits(strength, depths, plane, layers):
 
 
 def of_limit(strength, plane):
-    """The fatigue limit of a plane; nothing without a table."""
+    """Fatigue limit of a plane; {} without a table."""
     found = local_strength.limits(strength, [plane.depth])
     return {} if found is None else {"limit_at_worst_depth": found}
 
@@ -48,14 +49,13 @@ def at_depths(layers):
 
 
 def under_row(f, passage, profiles):
-    """Findley stress (depth, x) under the row with the critical point; f (nx, rows): that of the surface, the first depth."""
+    """Findley stress (depth, x, y) below the row of the critical point; f (nx, rows): that of the surface, the first depth."""
     under = max(profiles, key=lambda profile: profile.worst.f)
     row = f[:, [int(np.argmin(np.abs(passage.y - under.worst.y)))]].T
     return np.concatenate([row, under.f])
 
 
 def of_profiles(f, passage, profiles, listed):
-    """Over the depth, under the row with the critical point; f: as for :func:`under_row`; listed: whether other depths are
-    listed."""
+    """Arrays over depth below the row of the critical point; f: as in :func:`under_row`; listed: other depths are listed."""
     return {"under_row_depth" if listed else "fatigue_depth": np.append(0.0, profiles[0].depths),
             "findley_stress_under_row": under_row(f, passage, profiles)}

@@ -1,4 +1,4 @@
-"""The result of a fatigue search: its numbers and its arrays, and how a store names these."""
+"""Result of a fatigue search: its numbers and arrays, and their names in a store."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -106,7 +106,7 @@ class SearchResult:
 
     @classmethod
     def from_arrays(cls, searches, array, first=""):
-        """SearchResult of a store: {surface: summary of its search}, the worse first, and array(name): an array or None."""
+        """SearchResult of a store: {surface: summary of its search}, the worse one first, and array(name): an array or None."""
         summary, *others = searches.values()
         known = searched(summary).get("resolved")
         part = cls(known, **_named(array, first + PART)) if known else None
@@ -114,19 +114,19 @@ class SearchResult:
         return cls(summary, **_named(array, first), resolved=part, other=other)
 
     def to_arrays(self):
-        """{name: (values, dimensions, unit, text)}, as a store keeps them."""
+        """{name: (values, dimensions, unit, text)} for a store."""
         rows = "fatigue_depth" if self.under_row_depth is None else "under_row_depth"
         own = _arrays(self, rows) | (_of_part(_arrays(self.resolved, rows)) if self.resolved else {})
         return own | (_of_other(self.other.to_arrays()) if self.other else {})
 
     @property
     def by_surface(self):
-        """{"a" or "b": SearchResult} of each body that was searched, this one first."""
+        """{"a" or "b": SearchResult} of each searched body, this one first."""
         return {one.summary.get("surface", "a"): one for one in (self, self.other) if one}
 
     @property
     def summaries(self):
-        """{"a" or "b": summary} of each body that was searched, this one first."""
+        """{"a" or "b": summary} of each searched body, this one first."""
         return {name: one.summary for name, one in self.by_surface.items()}
 
     @property
@@ -136,11 +136,11 @@ class SearchResult:
 
     @property
     def numbers(self):
-        """Numbers of this search, also where the summary gives no index: there of the pressure alone."""
+        """Numbers of this search; if the summary gives no index, those of the pressure alone."""
         return searched(self.summary)
 
     def index(self, name):
-        """Index of the stresses `name`, by the limit of their depth; None where there are none."""
+        """Index of the stresses `name`, by the limit of their depth; None without such stresses."""
         stress, limits = getattr(self, name), getattr(self, LIMITS[name])
         if stress is None:
             return None
@@ -151,12 +151,12 @@ class SearchResult:
 
     @property
     def row_depths(self):
-        """Depths (m) of the stresses under a row."""
+        """Depths (m) of the stresses below a row."""
         return self.fatigue_depth if self.under_row_depth is None else self.under_row_depth
 
     @property
     def part(self):
-        """The resolved part with the constants and places of the whole passage, or None."""
+        """Resolved part with the constants and places of the whole passage, or None."""
         if self.resolved is None:
             return None
         return replace(self.resolved, summary={**constants_of(self.numbers), **self.numbers["resolved"]},
@@ -178,7 +178,7 @@ def _named(array, first):
 
 
 def _arrays(result, rows):
-    """Arrays of a result by name, without those of its resolved part; rows: dimension of what lies under a row."""
+    """Arrays of a result by name, without those of its resolved part; rows: dimension of the stresses below a row."""
     found = {name: (getattr(result, name), [rows if dim == ROWS else dim for dim in dims], unit, text)
              for name, (dims, unit, text) in ARRAYS.items()}
     for point, words in HISTORIES.items():
@@ -188,12 +188,12 @@ def _arrays(result, rows):
 
 
 def _of_part(arrays):
-    """The arrays of a resolved part by their names in a store."""
+    """Arrays of a resolved part by their names in a store."""
     return {PART + name: (values, [PART + dim if dim in OWN else dim for dim in dims], unit, text + PART_TEXT)
             for name, (values, dims, unit, text) in arrays.items()}
 
 
 def _of_other(arrays):
-    """The arrays of the other body by their names in a store."""
+    """Arrays of the other body by their names in a store."""
     return {OTHER + name: (values, [dim if dim in EQUAL else OTHER + dim for dim in dims], unit, f"{text}; other body")
             for name, (values, dims, unit, text) in arrays.items()}

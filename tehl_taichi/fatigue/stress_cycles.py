@@ -1,7 +1,7 @@
-"""Cycles of a passage on the critical plane: rainflow counting of the shear there, and how many exceed the fatigue limit.
+"""Cycles of a passage on the critical plane: rainflow counting of the shear there, and the number above the fatigue limit.
 
-The shear on the plane is taken along the direction in which it ranges most. Passages repeat, so that a history is counted as
-one that repeats (ASTM E1049-85, section 5.4.5): from its largest value on, which leaves whole cycles only.
+The shear is taken along the direction of its largest range. Passages repeat, so a history is counted as periodic (ASTM
+E1049-85, section 5.4.5): starting at its largest value, which leaves only whole cycles.
 """
 
 import numpy as np
@@ -14,8 +14,9 @@ LEAST = 0.05  # of the limit: smaller cycles are noise of the grid
 
 
 def rainflow(values):
-    """Cycles of a history that repeats, (n, 4): the indices of both ends and of the first and last value of the time that the
-    cycle takes, counted from the largest value on (see :func:`from_largest`)."""
+    """Cycles of a periodic history, (n, 4): indices of both ends and of the first and last value during the cycle, counted from
+    the largest value (see :func:`from_largest`).
+    """
     stack, out = [], []
     for n in _turns(values):
         stack.append(n)
@@ -26,13 +27,13 @@ def rainflow(values):
 
 
 def from_largest(values):
-    """A history that repeats, from its largest value to that again."""
+    """One period of a history, from its largest value to the same value."""
     top = int(np.argmax(values))
     return np.append(np.roll(values, -top), values[top])
 
 
 def _turns(values):
-    """Indices of the first and last value and of those at which it turns."""
+    """Indices of the first and last value and of the turning points."""
     moves = np.flatnonzero(np.diff(values)) + 1  # equal neighbours are one
     kept = np.append(0, moves)
     steps = np.diff(values[kept])
@@ -40,11 +41,11 @@ def _turns(values):
 
 
 def above(history, normal, local):
-    """Cycles per passage whose stress exceeds the limit, of a point; history (times, 6) Pa, the last moment unloaded; normal
-    (3,) of its critical plane; local: the :class:`tehl_taichi.scene.strength.strength.LocalStrength` there.
+    """Number of cycles per passage above the limit at a point.
 
-    The stress of a cycle is that of the criterion with half its range as amplitude, with the largest normal and mean stress of
-    the time that it takes.
+    history (times, 6) Pa, the last moment unloaded; normal (3,) of its critical plane; local: the
+    :class:`tehl_taichi.scene.strength.strength.LocalStrength` there. The stress of a cycle is the criterion with half its range
+    as amplitude, and with the largest normal and mean stress during the cycle.
     """
     dip, strike, normal_stress = findley.shear_path(history, normal)
     mean = history[:, :3].mean(axis=1)
@@ -61,7 +62,7 @@ def above(history, normal, local):
 
 
 def _along_the_largest(u, v):
-    """The path (u, v) along the direction in which it ranges most."""
+    """Path (u, v) along the direction of its largest range."""
     angles = np.pi * np.arange(DIRECTIONS) / DIRECTIONS
     along = np.outer(np.cos(angles), u) + np.outer(np.sin(angles), v)
     return along[int(np.argmax(np.ptp(along, axis=1)))]

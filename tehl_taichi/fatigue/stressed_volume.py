@@ -1,7 +1,8 @@
-"""Stressed volume and surface: Fi^m summed over the material around a feature, beside the smooth track (weakest link, Weibull).
+"""Stressed volume and surface: Fi^m summed over the material around a feature, relative to the smooth track (weakest link,
+Weibull).
 
-The probability that a crack begins somewhere grows with the volume that is stressed: twice the volume at one index, twice the
-risk; 1.1 times the index, 1.1^m times. docs/strength.md has the assumptions.
+The probability of a crack grows with the stressed volume: twice the volume at one index, twice the risk; 1.1 times the index,
+1.1^m times. Assumptions: docs/strength.md.
 """
 
 import numpy as np
@@ -14,10 +15,10 @@ FINE = 400  # depths between which the index is taken as linear
 
 
 def part(passage, surface_f, alone):
-    """The numbers "stressed" of a search's summary.
+    """Part "stressed" of a search's summary.
 
     surface_f: Findley stress (x', rows of the window) Pa; alone: the :class:`tehl_taichi.fatigue.contact_alone.ContactAlone`.
-    Effective sizes: of material with the index 1 that has the same risk.
+    Effective sizes: material with index 1 and the same risk.
     """
     m, depths = passage.scene.fatigue.weibull, np.append(0.0, depth_profile.ladder(passage))
     rows, limits = _rows(passage), np.array(passage.strength.limits(depths))[:, None]
@@ -32,17 +33,17 @@ def part(passage, surface_f, alone):
 
 
 def _equal(name, whole, per_area, area):
-    """{name: area of the smooth track with the risk that the feature adds to its window}, {} where the track has none."""
+    """{name: area of the smooth track with the additional risk by the feature}, {} if the track has none."""
     return {name: max(whole / per_area - area, 0.0)} if per_area > 0 else {}
 
 
 def _rows(passage):
-    """Numbers of rows of the window, the first and the last among them."""
+    """Numbers of some rows of the window, including the first and the last."""
     return np.unique(np.linspace(0, passage.y.size - 1, min(passage.y.size, ROWS)).round().astype(int))
 
 
 def _under(passage, surface_f, rows):
-    """[Findley stress (depths, x') Pa at the surface and below it] under each of these rows of the window."""
+    """[Findley stress (depths, x') Pa at and below the surface] under each of these rows of the window."""
     out, first = [], int(passage.rows.start)
     for some in np.array_split(rows, -(-rows.size // AT_ONCE)):
         found = depth_profile.profiles(passage, [first + int(row) for row in some])
@@ -51,7 +52,7 @@ def _under(passage, surface_f, rows):
 
 
 def over_depth(Fi, depths, m):
-    """Integral of Fi^m over the depth (m) of an index (depths, ...), linear between them; pressure alone counts as nothing."""
+    """Integral over depth (m) of Fi^m for an index (depths, ...), linear between the depths; negative values count as zero."""
     fine = np.linspace(depths[0], depths[-1], FINE)
     after = np.clip(np.searchsorted(depths, fine), 1, depths.size - 1)
     share = ((fine - depths[after - 1]) / (depths[after] - depths[after - 1])).reshape(-1, *[1] * (Fi.ndim - 1))
@@ -60,13 +61,14 @@ def over_depth(Fi, depths, m):
 
 
 def over_area(values, dx, y):
-    """Integral of values (x', rows) over x' (spacing dx) and the rows at y (m); of one row per metre across."""
+    """Integral of values (x', rows) over x' (spacing dx) and the rows at y (m); for one row per metre width."""
     along = dx * (values.sum(axis=0) - 0.5 * (values[0] + values[-1]))
     return float(np.trapezoid(along, y)) if y.size > 1 else float(along[0])
 
 
 def probabilities(found, volume, area):
-    """{"failure_volume", "failure_surface"}: of the window, where a specimen with these sizes (m3, m2) survives the limit in
-    half of the cases; those that are given."""
+    """{"failure_volume", "failure_surface"}: failure probability of the window, if a specimen of this size (m3, m2) survives
+    the limit in half of the cases; for given sizes only.
+    """
     sizes = {"failure_volume": (found["volume_m3"], volume), "failure_surface": (found["area_m2"], area)}
     return {name: float(-np.expm1(-np.log(2.0) * own / size)) for name, (own, size) in sizes.items() if size}

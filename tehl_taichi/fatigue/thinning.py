@@ -1,7 +1,7 @@
-"""Fewer moments of a stress history, for the first part of a search: those between whose chords all others lie.
+"""Reduction of the moments of a stress history for the first part of a search: moments between whose chords all others lie.
 
-Shear from a centre and normal stress are convex in the stress: on no plane has a moment on the chord of two others more than
-the worse of them, and one beside it as much more as it lies off. Half of a history stands nearly still, far from the contact.
+Shear from a centre and normal stress are convex in the stress: on no plane does a moment on the chord of two others exceed the
+worse of them, and one beside it by more than its distance. Half of a history hardly changes, far from the contact.
 """
 
 from tehl_taichi.engine.language import ti
@@ -23,7 +23,9 @@ def extent(S: ti.template(), row, steps):
 
 @ti.func
 def thin(S: ti.template(), some: ti.template(), row, steps, low, high):
-    """some[row] = the moments that are kept, the first and the last among them; returns how many. low, high: their extent."""
+    """Choose the moments some[row] to keep, including the first and the last; returns their number. low, high: extent of the
+    history.
+    """
     limit = OFF * OFF * (high - low).dot(high - low)
     some[row, 0] = 0
     count, last = 1, 0
@@ -40,7 +42,7 @@ def thin(S: ti.template(), some: ti.template(), row, steps, low, high):
 
 @ti.func
 def along(S: ti.template(), row, first, last, limit):
-    """1 where all moments between two lie within the root of `limit` of their chord, else 0."""
+    """1 if all moments between two lie within sqrt(limit) of their chord, else 0."""
     start, good = stress(S, row, first), 1
     chord = stress(S, row, last) - start
     length = chord.dot(chord)
@@ -57,7 +59,7 @@ def along(S: ti.template(), row, first, last, limit):
 
 @ti.func
 def all_of(some: ti.template(), row, steps):
-    """some[row] = all moments; returns how many."""
+    """Keep all moments in some[row]; returns their number."""
     for t in range(steps):
         some[row, t] = t
     return steps

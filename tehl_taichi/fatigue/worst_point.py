@@ -1,4 +1,4 @@
-"""The worst point of a search: its stress history, its critical plane, and the moments that decide there."""
+"""Worst point of a search: its stress history, its critical plane, and the decisive moments."""
 
 from dataclasses import dataclass
 
@@ -25,7 +25,7 @@ class WorstPoint:
 
     @property
     def compared(self):
-        """Its stress in the ratio of the limits at the surface and here, Pa: the largest one has the largest index."""
+        """Stress (Pa) times the ratio of the limits at the surface and here; the largest one has the largest index."""
         return self.f * self.local.share
 
     @property
@@ -35,11 +35,11 @@ class WorstPoint:
 
     @property
     def circle(self):
-        """Around the shear path: centre along dip and strike, radius; Pa."""
+        """Smallest circle around the shear path: centre along dip and strike, radius; Pa."""
         return findley.smallest_circle(*self.path[:2])
 
     def summary(self):
-        """Its numbers in SI. sigma1_worst_Pa: its largest principal stress."""
+        """Numbers in SI units. sigma1_worst_Pa: largest principal stress."""
         theta, phi = (float(v[0]) for v in findley.angles(self.normal[None]))
         numbers = {"Fi_max": self.f / self.local.endurance, "findley_stress_max_Pa": self.f, "x_m": self.x, "y_m": self.y,
                    "plane_theta_deg": theta, "plane_phi_deg": phi, "surface_angle_deg": theta,
@@ -65,8 +65,9 @@ def worst_of(points, default=None):
 
 
 def worse(worst, places, history, f, normals, local):
-    """The worst of these points, all of one depth, and the worst so far (or None); places(n): depth, x and y (m) of one of
-    them; local: LocalStrength of the depth."""
+    """Worst of these points at one depth and of `worst` (or None); places(n): depth, x and y (m) of a point; local:
+    LocalStrength of the depth.
+    """
     top = int(np.argmax(f))
     if worst is not None and f[top] <= worst.f:
         return worst
@@ -74,8 +75,9 @@ def worse(worst, places, history, f, normals, local):
 
 
 def over_some(history, moments, passage, depth, places, known, worst=None):
-    """(stress of every point, Pa, worst point or the one so far) of some of the moments; known: (f, normals) of all of them.
-    Few points at once: a choice of moments is a copy of their histories."""
+    """(stress of every point, Pa, worst point or `worst`) for some of the moments; known: (f, normals) for all moments. A few
+    points at a time, because the selection copies their histories.
+    """
     f, local = np.empty(len(history)), passage.strength.at(depth)
     for first in range(0, len(history), AT_ONCE):
         points = slice(first, first + AT_ONCE)

@@ -1,8 +1,8 @@
 """Loads averaged over a length.
 
-The half-space is the same everywhere, so their stresses, at the surface and at any depth, are the averages of the stresses of
-the loads themselves over that length. A material has one (Taylor, The Theory of Critical Distances, 2007): its fatigue follows
-a stress over a distance, not at a point; and at a jump of the surface shear sigma_xx is a logarithm of the distance.
+The half-space is homogeneous, so stresses of averaged loads are the averages of the stresses over that length, at the surface
+and at any depth. A material has a characteristic length (Taylor, The Theory of Critical Distances, 2007): its fatigue depends
+on a stress over a distance, not at a point; and at a jump of the surface shear sigma_xx is a logarithm of the distance.
 """
 
 from dataclasses import replace
@@ -11,8 +11,9 @@ import numpy as np
 
 
 def weights(length, spacing):
-    """Parts of `length` (m) around a node that lie in the cells of its neighbours, from the farthest on one side to that on the
-    other; one weight where the length is no longer than a cell."""
+    """Shares of `length` (m) around a node in the cells of its neighbours, from one side to the other; one weight if the length
+    is at most a cell.
+    """
     reach = max(0, int(np.ceil(length / (2 * spacing) - 0.5 - 1e-9)))
     if reach == 0:
         return np.ones(1)
@@ -21,8 +22,9 @@ def weights(length, spacing):
 
 
 def averaged(field, parts, axis=0, mirrored=False, odd=False):
-    """The averages of a field along `axis` by :func:`weights`. Beyond its ends it continues as at them; mirrored: before the
-    first row lies the mirror of what follows it; odd: with the other sign."""
+    """Averages of a field along `axis` by :func:`weights`. Beyond its ends it is constant; mirrored: the first row is a
+    symmetry axis; odd: antisymmetric.
+    """
     if parts.size == 1:
         return field
     along, reach = np.moveaxis(np.asarray(field), axis, 0), parts.size // 2
@@ -33,8 +35,9 @@ def averaged(field, parts, axis=0, mirrored=False, odd=False):
 
 
 class AveragedReader:
-    """A reader, as :class:`tehl_taichi.fatigue.stress.histories.StressHistories` takes it, whose fields are averages over a
-    square of `length` (m) parallel to the surface. Rows that begin with y = 0 have their mirror on the other side."""
+    """Reader for :class:`tehl_taichi.fatigue.stress.histories.StressHistories` whose fields are averages over a square of
+    `length` (m) parallel to the surface. Rows that begin at y = 0 have their mirror on the other side.
+    """
 
     def __init__(self, reader, length):
         self.reader, self.x, self.y, self.time, self.feature_x = reader, reader.x, reader.y, reader.time, reader.feature_x
@@ -57,8 +60,7 @@ class AveragedReader:
 
 
 class WindowedAverages(AveragedReader):
-    """An averaged reader with a window (:class:`tehl_taichi.fatigue.stress.windowed.WindowedStresses`), which is averaged
-    alike."""
+    """Averaged reader with an averaged window (:class:`tehl_taichi.fatigue.stress.windowed.WindowedStresses`)."""
 
     def __init__(self, reader, length):
         super().__init__(reader, length)
@@ -83,10 +85,10 @@ class WindowedAverages(AveragedReader):
 
 
 def averaged_reader(reader, length):
-    """The averages of a reader over a square of `length` (m), with its window where it has one."""
+    """Averages of a reader over a square of `length` (m), with its window if it has one."""
     return (WindowedAverages if has_window(reader) else AveragedReader)(reader, length)
 
 
 def has_window(reader):
-    """Whether a fine window is part of what is read."""
+    """Whether a reader has a fine window."""
     return hasattr(reader, "window")

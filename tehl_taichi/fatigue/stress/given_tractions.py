@@ -11,7 +11,7 @@ LARGEST, FARTHEST = 1e12, 1e3  # Pa, m: no load and no distance of nodes is larg
 
 
 def stresses(pressure, traction_x, traction_y, dx, dy, depths, nu):
-    """As :func:`tehl_taichi.stresses`."""
+    """Compute stresses: see :func:`tehl_taichi.stresses`."""
     loads = _loads(pressure, traction_x, traction_y)
     line = loads.ndim == 2
     dx, dy = _step("dx", dx), 1.0 if line else _step("dy", dx if dy is None else dy)
@@ -25,13 +25,13 @@ def stresses(pressure, traction_x, traction_y, dx, dy, depths, nu):
 
 
 def _at(fields, x, y, nu, line, depth):
-    """(nx, ny, 6) at one depth."""
+    """Stresses (nx, ny, 6) at one depth."""
     found = HalfSpaceStress(x, y, nu, line=line, mirrored=False, depth=float(depth))(*fields)
     return np.stack([found[name] for name in COMPONENTS], axis=-1)
 
 
 def _loads(pressure, traction_x, traction_y):
-    """(3, nx) or (3, nx, ny): pressure and both shear tractions."""
+    """Loads (3, nx) or (3, nx, ny): pressure and both shear tractions."""
     pressure = _array("pressure", pressure)
     if pressure.ndim not in (1, 2) or min(pressure.shape) < 2:
         raise SceneError(f"pressure has the shape {pressure.shape}; allowed: (nx,) or (nx, ny) with at least 2 nodes each")

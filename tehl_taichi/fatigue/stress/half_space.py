@@ -1,5 +1,6 @@
-"""Stresses in a body under pressure and shear on its surface, at the surface or at one depth (half-space, see
-:mod:`tehl_taichi.fatigue.stress.rectangle` for the coefficients and the signs)."""
+"""Stresses in a body under pressure and shear on its surface, at the surface or at one depth (coefficients and signs:
+:mod:`tehl_taichi.fatigue.stress.rectangle`).
+"""
 
 import numpy as np
 
@@ -15,12 +16,12 @@ PHASES = (1, 1, 1, 1, 1j, 1j)  # of the components, beside those of the loads p,
 class HalfSpaceStress:
     """Stresses on a uniform half domain, y >= 0 mirrored (p, q_x even in y; q_y odd), or on a whole one.
 
-    x (nx+1,), y (ny+1,) in m, y[0] = 0; one row of y means plane strain. nu: Poisson's ratio. mirrored=False: nothing acts
-    at y < 0. depth: m below the surface. rows: slice of those that are wanted (default: all). kind: precision of the
-    transforms; single is 3e-7 of the largest stress.
-    line=True: p and q_x of the last y row continue to infinity; that part is plane strain (analytic strips), the deviation
-    from it a convolution over the rectangles around the nodes. line=False: nothing acts outside the domain.
-    Raises ValueError for a grid that is not uniform, or a single row without line=True.
+    x (nx+1,), y (ny+1,) in m, y[0] = 0; one row of y means plane strain. nu: Poisson's ratio. mirrored=False: nothing acts at y
+    < 0. depth: m below the surface. rows: slice of the rows to compute (default: all). kind: precision of the transforms; the
+    error of single precision is 3e-7 of the largest stress. line=True: p and q_x of the last y row continue to infinity; that
+    part is plane strain (analytic strips), the deviation from it a convolution over the rectangles around the nodes.
+    line=False: nothing acts outside the domain. Raises ValueError for a grid that is not uniform, or a single row without
+    line=True.
     """
 
     def __init__(self, x, y, nu, line=True, mirrored=True, depth=0.0, rows=None, kind=DOUBLE):
@@ -48,12 +49,12 @@ class HalfSpaceStress:
         return dict(zip(COMPONENTS, out))
 
     def _strips(self, parts):
-        """Transforms of what strips under unit pressure and unit q_x answer: sxx, szz, sxz each."""
+        """Transforms of the stresses sxx, szz, sxz of a strip under unit pressure and unit q_x."""
         return [[np.fft.rfft(wrapped(part, self.size, sign)) for part, sign in zip(found, along(load)[[0, 2, 4]])]
                 for load, found in enumerate(parts)]
 
     def _plane_strain(self, p, q):
-        """Six components (nx+1,) of loads that do not change along y."""
+        """Six components (nx+1,) of loads that do not vary along y."""
         loads = np.fft.rfft([p, q], self.size)
         sxx, szz, sxz = (np.fft.irfft(loads[0] * by_p + loads[1] * by_q, self.size)[: p.size]
                          for by_p, by_q in zip(*self.strips))
@@ -62,10 +63,10 @@ class HalfSpaceStress:
 
 
 class _Convolution:
-    """Transforms of the loads, zeros beyond them, times those of the answers to unit loads.
+    """Convolution: zero-padded transforms of the loads times those of the stresses by unit loads.
 
-    An answer is even or odd in x and in y, so its transform is a real number, for i q_x and i q_y in place of q_x and q_y and
-    i times sxz and syz: half the work of complex ones.
+    The stress by a unit load is even or odd in x and in y, so its transform is a real number, with i q_x and i q_y in place of
+    q_x and q_y, and i times sxz and syz: half the work of complex ones.
     """
 
     def __init__(self, x, y, nu, mirrored, depth, rows, kind):
@@ -81,7 +82,7 @@ class _Convolution:
         return [self._answer(load, n, components[n]) for n in self.found]
 
     def _answer(self, load, component, values):
-        """Each number twice, as it counts for the real and the imaginary part of a wave."""
+        """Each number twice, for the real and the imaginary part of a wave."""
         w = self.waves
         along_x = half(wrapped(values, w.nx, along(load)[component]), w.nx, 0, DOUBLE)
         whole = transform(wrapped(along_x.T, w.ny, ACROSS[component] * SIGNS[load]).T, w.ny, DOUBLE)[:, : w.modes]
@@ -89,7 +90,7 @@ class _Convolution:
         return np.repeat(real, 2, axis=1).astype(real_of(w.kind))
 
     def __call__(self, p, qx, qy):
-        """(number of the component, its values (nx+1, rows)) of those that are found, one after the other."""
+        """Generator of (number of the component, its values (nx+1, rows)) for the components to compute."""
         w = self.waves
         loads = [w.spectrum(p), w.spectrum(qx, factor=1j), w.spectrum(qy, odd=True, factor=1j)]
         loads = [load.view(load.real.dtype) for load in loads]

@@ -1,4 +1,4 @@
-"""Residual stress that plastic flow left in a body, between the points where it is known."""
+"""Residual stress by plastic flow in a body, interpolated between its known points."""
 
 from dataclasses import dataclass, replace
 
@@ -13,7 +13,7 @@ ENDS = 1.5        # of the deepest depth: there it has gone
 
 @dataclass(frozen=True)
 class ResidualField:
-    """x (nx,), y (rows,), depths (layers,) m, in the frame of the surface; stress (layers, 6, nx, rows) Pa. Nothing beyond."""
+    """x (nx,), y (rows,), depths (layers,) m, in the frame of the surface; stress (layers, 6, nx, rows) Pa; zero beyond."""
 
     x: np.ndarray
     y: np.ndarray
@@ -21,7 +21,7 @@ class ResidualField:
     stress: np.ndarray
 
     def at(self, x, y, depths):
-        """(x, y, depths, 6) Pa at these places."""
+        """Stresses (x, y, depths, 6), Pa, at these positions."""
         found = np.tensordot(_weights(self.x, x), self.stress, (1, 2))  # x, layers, 6, y
         found = np.tensordot(found, _weights(self.y, y), (3, 1))  # x, layers, 6, y
         found = np.moveaxis(np.tensordot(found, self._in_depth(depths), (1, 1)), 1, -1)  # x, y, depths, 6
@@ -29,7 +29,7 @@ class ResidualField:
         return found
 
     def _in_depth(self, depths):
-        """(depths, layers): linear between the middles of layers, continued to the surface, nothing at ENDS."""
+        """Weights (depths, layers): linear between the middles of layers, constant up to the surface, zero at ENDS."""
         deep = np.asarray(depths, float)
         out = _weights(np.append(self.depths, ENDS * self.depths[-1]), deep)[:, :-1]
         above = deep < self.depths[0]
@@ -39,14 +39,14 @@ class ResidualField:
         return out
 
     def averaged(self, along, across, mirrored):
-        """The field averaged over a square by weights along x and y (:mod:`tehl_taichi.fatigue.stress.averaging`)."""
+        """Field averaged over a square by weights along x and y (:mod:`tehl_taichi.fatigue.stress.averaging`)."""
         stress = averaged(self.stress, along, 2)
         parts = [averaged(stress[:, n], across, 2, mirrored, ACROSS[n] < 0) for n in range(6)]
         return replace(self, stress=np.stack(parts, axis=1))
 
 
 def _weights(nodes, to):
-    """(to, nodes): weights of linear interpolation, 0 beyond the ends; one node holds everywhere."""
+    """Linear interpolation weights (to, nodes), 0 beyond the ends; a single node is constant."""
     to = np.atleast_1d(np.asarray(to, float))
     if len(nodes) == 1:
         return np.ones((to.size, 1))

@@ -8,7 +8,7 @@ from tehl_taichi.scene.strength.strength import Strength
 
 
 class Steady:
-    """The steady start of a run twice, as the reader of a passage in which nothing changes.
+    """Steady start of a run, twice, as the reader of a passage without changes.
 
     reader: as for :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; apart: s.
     """
@@ -25,8 +25,9 @@ class Steady:
 
 
 class SteadySweep(StressHistories):
-    """Histories of one material point on the middle row, as it moves by a cell from moment to moment, `positions` (m) of it,
-    through the steady fields. scene, reader, surface: as for the class above."""
+    """Histories of one material point on the middle row that moves through the steady fields, one cell per moment; `positions`:
+    its coordinates (m). scene, reader, surface: as for the base class.
+    """
 
     block = 1  # one entry, which every moment reads
 

@@ -1,4 +1,4 @@
-"""Stresses of plane strain at many depths, from loads on endless strips, as those of a smooth line contact."""
+"""Plane-strain stresses at many depths, by loads on endless strips, as in a smooth line contact."""
 
 import numpy as np
 
@@ -11,8 +11,9 @@ IN_PLANE = [0, 2, 4]  # xx, zz, xz: yy follows from them, xy and yz are zero
 
 
 class StripStress:
-    """Six components at `depths` (m, 0: the surface) from p and q_x on endless strips around the nodes x (m), equally spaced;
-    nu: Poisson's ratio of the body."""
+    """Six components at `depths` (m, 0: the surface) by p and q_x on endless strips around the equally spaced nodes x (m); nu:
+    Poisson's ratio of the body.
+    """
 
     def __init__(self, x, nu, depths):
         x = np.asarray(x, float)
@@ -22,7 +23,9 @@ class StripStress:
         self.answers = np.stack([self._answers(rectangle.strip(lags, z, side)) for z in depths], axis=1)
 
     def __call__(self, p, qx):
-        """(entries, nx+1, depths, 6) Pa from loads (entries, nx+1) Pa. One entry at once: its spectra stay in the cache."""
+        """Stresses (entries, nx+1, depths, 6), Pa, of loads (entries, nx+1), Pa. One entry at a time: its spectra stay in the
+        cache.
+        """
         out = np.zeros((*np.shape(p), self.count, 6))
         for found, *loads in zip(out, p, qx):
             self._put(found, np.stack(loads))
@@ -37,7 +40,7 @@ class StripStress:
         out[..., 1] = self.nu * (out[..., 0] + out[..., 2])
 
     def _answers(self, strip):
-        """(2, parts in the plane, waves): of unit pressure and unit q_x on one strip."""
+        """Stresses by unit pressure and unit q_x on one strip: (2, parts in the plane, waves)."""
         signs = [along(load)[IN_PLANE] for load in (0, 1)]
         return np.stack([half(wrapped(np.transpose(parts), self.size, signs[load]).T, self.size, -1, DOUBLE)
                          for load, parts in enumerate(strip)])

@@ -1,5 +1,6 @@
-"""Stresses by unit loads on one rectangle of a surface, component by component, and its symmetries: the loads p, q_x, q_y and
-the components xx, yy, zz, xy, xz, yz by number."""
+"""Stresses by unit loads on one rectangle of a surface, by component, and their symmetries. Loads p, q_x, q_y and components
+xx, yy, zz, xy, xz, yz are numbered.
+"""
 
 import numpy as np
 
@@ -15,14 +16,14 @@ ACROSS = np.array([1, 1, 1, -1, 1, -1])  # of the components on the other side a
 
 
 def along(load):
-    """Signs (6,) of the components on the other side along x."""
+    """Signs (6,) of the components at the mirrored x."""
     signs = np.ones(6)
     signs[list(TURNED)] = -1.0
     return -signs if load == 1 else signs
 
 
 def unit_load(load, x, y, depth, sides):
-    """(6, lags, rows): stresses at (x, y, depth) from a unit load on one rectangle; sides: half of each (m), and nu."""
+    """Stresses (6, lags, rows) at (x, y, depth) by a unit load on one rectangle; sides: half of each (m), and nu."""
     if depth:
         return np.array(BELOW[load](x, y, depth, *sides))
     out = np.zeros((6, *np.broadcast_shapes(x.shape, y.shape)))
@@ -32,7 +33,7 @@ def unit_load(load, x, y, depth, sides):
 
 
 def wrapped(values, size, signs):
-    """Values (lags from 0, ...) as one period, lag 0 first; signs: of those on the other side."""
+    """Values (lags from 0, ...) as one period, lag 0 first; signs: of the mirrored values."""
     out, lags = np.zeros((size, *values.shape[1:]), values.dtype), len(values)
     out[:lags], out[size - lags + 1 :] = values, signs * values[:0:-1]
     return out

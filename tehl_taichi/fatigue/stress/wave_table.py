@@ -1,8 +1,8 @@
-"""Answers of waves that depend on their length alone: of a few wave numbers, and between them interpolated.
+"""Responses of waves that depend only on the wave number: computed for a few and interpolated between.
 
-A plane of 256 x 128 points has 28 000 waves that reach below the surface, of as many different lengths; each answer is a
-series in time of error functions. They are smooth in the logarithm of the wave number: s a depth and row of such a plane, each
-wave by itself / from the table 5.2 / 2.8, 4.3 / 2.5 (half of what is left goes with the way of the wave over the body).
+A plane of 256 x 128 points has 28 000 waves that reach below the surface, all of different lengths; each response is a series
+in time of error functions. They are smooth in the logarithm of the wave number: s per depth and row of such a plane, each wave
+by itself / from the table 5.2 / 2.8, 4.3 / 2.5 (half of the rest is the motion of the wave over the body).
 """
 
 import numpy as np
@@ -12,8 +12,9 @@ WORTH = 2  # times as many waves as in the table: fewer are found each by itself
 
 
 class WaveTable:
-    """Table over wave numbers k (n,) 1/m: the arrays (4, n, ...) that find(k) gives, of single precision; :meth:`of` chooses
-    how."""
+    """Table over wave numbers k (n,) 1/m of the arrays (4, n, ...) of find(k), in single precision; :meth:`of` chooses between
+    both.
+    """
 
     def __init__(self, low, high, find):
         self.first, self.count = np.log(low), max(4, int(np.ceil(np.log(high / low) * DENSE)) + 1)
@@ -23,7 +24,7 @@ class WaveTable:
 
     @classmethod
     def of(cls, k, find):
-        """A table for these wave numbers, or `find` itself where that is less work."""
+        """A table for these wave numbers, or `find` itself if that is less work."""
         low, high = k[k > 0].min(initial=np.inf), k.max(initial=0.0)
         if high <= low or np.log(high / low) * DENSE * WORTH > k.size:
             return find
@@ -34,7 +35,7 @@ class WaveTable:
         return [self._product(weights, part[:, rows]) for part in self.table]
 
     def _weights(self, k):
-        """((n, rows) weights, rows of the table): Lagrange's of the four nearest wave numbers."""
+        """((n, rows) weights, rows of the table): Lagrange weights of the four nearest wave numbers."""
         mean = k == 0
         at = (np.log(np.where(mean, 1.0, k)) - self.first) / self.step
         first = np.clip(np.floor(at).astype(int) - 1, 0, self.count - 4)
@@ -50,6 +51,6 @@ class WaveTable:
 
     @staticmethod
     def _product(weights, part):
-        """weights (n, rows) times part (4, rows, ...), which may be complex: of real numbers, half the work."""
+        """Product of weights (n, rows) and part (4, rows, ...), which may be complex; with real arithmetic, half the work."""
         real = np.ascontiguousarray(part).view(np.float32)
         return np.matmul(weights, real).view(part.dtype)

@@ -1,4 +1,4 @@
-"""Transforms of fields on the surface of a body, and back."""
+"""Fourier transforms of fields on the surface of a body, and inverse."""
 
 import numpy as np
 
@@ -6,10 +6,10 @@ from tehl_taichi.engine.fftw import SINGLE, half, half_back, pyfftw, transformed
 
 
 class Waves:
-    """Waves of fields on `columns` x `rows` nodes with zeros beyond them, up to nx x ny, where they are periodic.
+    """Waves of fields on `columns` x `rows` nodes, padded with zeros to a period of nx x ny.
 
-    mirrored: fields are even or odd about their first row, and so are their spectra, of which ny//2+1 modes of y are kept.
-    kind: precision of the spectra, and of the values that come back.
+    mirrored: fields are even or odd about their first row, as are their spectra, of which ny//2+1 modes of y are kept. kind:
+    precision of spectra and values.
     """
 
     def __init__(self, columns, rows, nx, ny, mirrored, kind=SINGLE):
@@ -17,11 +17,11 @@ class Waves:
         self.modes = ny // 2 + 1 if mirrored else ny
 
     def spectrum(self, values, odd=False, factor=1):
-        """(nx//2+1, modes) of `factor` times values (columns, rows)."""
+        """Spectrum (nx//2+1, modes) of `factor` times values (columns, rows)."""
         return transformed(self._whole(half(values, self.nx, 0, self.kind), odd, factor))[:, : self.modes]
 
     def values(self, spectrum, odd=False, factor=1, rows=slice(None)):
-        """(columns, rows) of `factor` times a spectrum; rows: slice of those that are wanted."""
+        """Values (columns, rows) of `factor` times a spectrum; rows: slice of the rows to compute."""
         whole = self._whole(spectrum, odd, factor / (self.nx * self.ny))
         across = transformed(whole, "FFTW_BACKWARD")[:, : self.rows]
         if self.mirrored and odd:
@@ -29,7 +29,7 @@ class Waves:
         return half_back(across[:, rows], self.nx, 0, self.kind)[: self.columns]
 
     def _whole(self, part, odd, factor):
-        """(waves, ny) of the values from the first row or mode on: zeros behind it, its image at the end."""
+        """Complete (waves, ny) from the first half of rows or modes: zeros after it, its image at the end."""
         out, size = pyfftw.empty_aligned((part.shape[0], self.ny), self.kind), part.shape[1]
         image = min(size - 1, self.ny - size) if self.mirrored else 0
         np.multiply(part, factor, out=out[:, :size])
