@@ -65,7 +65,7 @@ class WindowedAverages(AveragedReader):
     def __init__(self, reader, length):
         super().__init__(reader, length)
         self.window, self.base, self.searched = reader.window, AveragedReader(reader.base, length), reader.searched
-        self.averaged, self.kept_heat = length, reader.kept_heat
+        self.averaged, self.kept_heat, self.tables = length, reader.kept_heat, reader.tables
         self.at_axis = self.mirrored and self.window.row == 0
 
     def inside(self, n, names):

@@ -18,18 +18,21 @@ from tehl_taichi.fatigue.stress.strip_stress import StripStress
 from tehl_taichi.fatigue.stress.unit_loads import ACROSS, CARRIED, HELD, SIGNS, TURNED, along, unit_load, wrapped
 from tehl_taichi.fatigue.stress.workers import pool
 
+STEPS = 16  # rows across by which tables grow, so that operators of neighbouring rows take the same ones
+
 
 class RowStress:
     """Six components at `depths` (m, 0: the surface) under `rows` of a grid, from p, q_x and q_y on all its rows.
 
     x, y, nu, line, mirrored, kind: as for :class:`tehl_taichi.fatigue.stress.half_space.HalfSpaceStress`; mirrored rows begin
-    at y = 0. Of the surface alone three components are found, the others are its loads.
+    at y = 0. Of the surface alone three components are found, the others are its loads. tables:
+    :class:`tehl_taichi.fatigue.stress.kept_tables.KeptTables` of operators that are made again for other rows, or None.
     """
 
-    def __init__(self, x, y, nu, line, mirrored, depths, rows, kind=DOUBLE):
+    def __init__(self, x, y, nu, line, mirrored, depths, rows, kind=DOUBLE, tables=None):
         self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
         self.n, self.size, self.rows_used, self.kind = self.x.size, even_fast_length(2 * self.x.size - 1), list(rows), kind
-        self.depths, self.found = depths, list(range(6) if np.any(depths) else HELD)
+        self.depths, self.tables, self.found = depths, tables, list(range(6) if np.any(depths) else HELD)
         lags = np.arange(self.n) * spacing(self.x)
         self.strips = StripStress(self.x, self.nu, depths) if line else None
         self.rows = self._rows(lags, mirrored) if self.y.size > 1 else None
@@ -96,17 +99,28 @@ class RowStress:
     def _rectangles(self, lags, load, depth, mirrored):
         """(waves, rows, rows wanted, components), real: from a unit load on one rectangle of each row and its image."""
         count, sign, across = self.y.size, SIGNS[load], (ACROSS * SIGNS[load])[self.found]
-        steps = np.arange(max(self.rows_used) + count) * spacing(self.y)
-        table = self._transformed(unit_load(load, lags[:, None], steps, depth, self._sides), load)
+        reach = max(self.rows_used) + count
+        table = self._table(lags, load, depth, reach)
         sides = np.concatenate([table[:, :0:-1], table[:, :1], table[:, 1:] * across], axis=1)
         out = np.empty((len(table), count, len(self.rows_used), len(self.found)), table.dtype)
         for n, row in enumerate(self.rows_used):
-            first = steps.size - 1 - row
+            first = reach - 1 - row
             out[:, :, n] = sides[:, first : first + count]
             if mirrored:
                 out[:, 1:, n] += sign * table[:, row + 1 : row + count]
                 out[:, 0, n] *= sign > 0  # an odd load vanishes on the mirror's row
         return out
+
+    def _table(self, lags, load, depth, reach):
+        """(waves, steps across, components), real, of a unit load on one rectangle; at `reach` steps."""
+        def made(steps):
+            across = np.arange(steps) * spacing(self.y)
+            return self._transformed(unit_load(load, lags[:, None], across, depth, self._sides), load)
+
+        if self.tables is None:
+            return made(reach)
+        more = -(-reach // STEPS) * STEPS
+        return self.tables.of((load, depth, self.n, more, self._sides, *self.found, self.kind), lambda: made(more))[:, :reach]
 
     @property
     def _sides(self):

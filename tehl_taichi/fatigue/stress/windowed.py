@@ -87,7 +87,7 @@ class BasePart:
         self.reader, self.passage, self.kind = passage.reader.base, passage, kind
         b = self.between = RunNodes(passage, rows)
         self.operator = RowStress(b.x, self.reader.y, passage.surface.body.nu, passage.line, passage.mirrored, depths, b.rows,
-                                  kind)
+                                  kind, passage.reader.tables)
 
     def __call__(self, block):
         """As :meth:`WindowedStresses.__call__`."""
@@ -113,7 +113,8 @@ class WindowPart:
 
         def operator(columns, first, count, factor, these):
             x, y = np.arange(columns) * grid[0] * factor, (first + np.arange(count)) * grid[1] * factor
-            return RowStress(x, y - (0.0 if mirrored else y[0]), nu, w.rows == 1, mirrored, depths, list(these), kind)
+            y = y - (0.0 if mirrored else y[0])
+            return RowStress(x, y, nu, w.rows == 1, mirrored, depths, list(these), kind, reader.tables)
 
         if self.within.size:
             self.fine = operator(w.columns, w.row, w.rows, 1, self.own)

@@ -61,8 +61,16 @@ def is_at_exit(x, a):
 
 def pressure_doubt(reader, entries, largest, a):
     """The :func:`doubt` about these entries, from the worst peak of all; largest: their largest pressure, Pa."""
-    height, at = max(sharpest(reader.fields(n, ("pressure",))["pressure"], largest) for n in entries)
+    height, at = max(_sharpest_of(reader, n, largest) for n in entries)
     return doubt(reader.x, height, at, a)
+
+
+def _sharpest_of(reader, n, largest):
+    """Sharpest peak of an entry; a reader whose fields take work keeps it in its `peaks`."""
+    kept = getattr(reader, "peaks", {})
+    if (n, largest) not in kept:
+        kept[n, largest] = sharpest(reader.fields(n, ("pressure",))["pressure"], largest)
+    return kept[n, largest]
 
 
 def film_reading(shot, scene):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tehl_taichi.fatigue.stress.kept_tables import KeptTables
 from tehl_taichi.fatigue.stress.windowed import POINTS, Extent, Inside
 from tehl_taichi.values.refining import Refining
 
@@ -15,7 +16,7 @@ class ZoomedReader:
 
     def __init__(self, reader, zoomed, mirrored, worst=False):
         self.base, self.zoomed, w, self.searched = reader, zoomed, zoomed.window, {}
-        self.averaged, self.kept_heat, self.worst = 0.0, {}, worst
+        self.averaged, self.kept_heat, self.tables, self.worst, self.peaks = 0.0, {}, KeptTables(), worst, {}
         self.residual_fields = getattr(reader, "residual_fields", {})
         self.window = Extent(w.factor, w.nx + 1, w.ny + 1, w.row)
         self.time, self.feature_x = reader.time, reader.feature_x

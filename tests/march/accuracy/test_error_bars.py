@@ -424,3 +424,20 @@ def test_a_passage_that_touches_without_companions_says_so(passage):
     found = coarse_runs.errors(short(**{"numerics.estimate_error": False}), Store(shots), None, None)
     assert "contact_load_fraction_max" not in found["passage_error"]
     assert "touch" in found["passage_unknown"]["contact_load_fraction_max"]
+
+
+def test_a_reader_whose_fields_take_work_keeps_their_peaks():
+    """And knows them by the largest pressure that they are compared with."""
+    class Worked:
+        def __init__(self):
+            self.x, self.peaks, self.asked = np.linspace(-2e-4, 2e-4, 41), {}, []
+
+        def fields(self, n, names):
+            self.asked.append(n)
+            return {"pressure": np.where(np.arange(41) == 30 + n, 2e9, 1e9)[:, None] * np.ones((1, 3))}
+
+    reader = Worked()
+    first = readings.pressure_doubt(reader, [0, 1], 2e9, 1e-4)
+    assert first and first == readings.pressure_doubt(reader, [0, 1], 2e9, 1e-4) and reader.asked == [0, 1]
+    readings.pressure_doubt(reader, [1], 9e9, 1e-4)
+    assert reader.asked == [0, 1, 1]
