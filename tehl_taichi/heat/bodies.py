@@ -23,8 +23,8 @@ class ConductingBody:
         diffusivity, slab = material.k / (material.rho * material.c), rests and scales.line
         self.depth = conduction_modes.REST * scales.a / math.sqrt(diffusivity * dt) if slab else math.inf
         pe = 0.0 if rests else peclet(material, speed, scales)
-        wide = (conduction_modes.NONE if scales.line or pe > conduction_modes.FAST
-                else conduction_modes.widths(pe, scales.a, scales.b))
+        sideways = not (scales.line or conduction_modes.is_fast(pe, scales.a, scales.b))
+        wide = conduction_modes.widths(pe, scales.a, scales.b) if sideways else conduction_modes.NONE
         self.spread = tuple(w * w / (4 * diffusivity * dt) for w in wide)
         self.modes, self.drift = np.zeros((4, conduction_modes.MODES)), Record(Drift)
 

@@ -23,7 +23,7 @@ HORIZON = 2e4  # steps that a strip spends on the grid at most (a surface at a h
 # heated are missing, 3 % of the one before that
 SHORTEST = 1 / 16
 REST = 3.0  # a
-FAST = 100.0  # Peclet number u a/alpha from which on the heat that is lost sideways changes no temperature by 1 %
+FAST = 100.0  # Peclet number from which on heat that is lost sideways changes no temperature by more than 1 %
 NONE = math.inf, math.inf
 LONG = 1e4  # of the larger spread: the tail of K after it holds 0.6 % of a steady temperature
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
@@ -42,14 +42,21 @@ class ModeMemory(NamedTuple):
     B_last: float
 
 
+def is_fast(peclet, a, b):
+    """Whether a surface moves too fast to lose heat sideways; peclet: u a/alpha; a, b: half-axes in one unit."""
+    return peclet * min(1.0, b / a) ** 2 > FAST
+
+
 def widths(peclet, a, b):
     """Widths (w_x, w_y) of the spot that describes sideways conduction of an elliptic contact, in the unit of its half-axes a
     and b.
 
     peclet: u a/alpha. Fitted to exact steady temperatures of moving half-spaces under Hertzian fluxes (docs/decisions/03): the
-    largest and the mean temperature per flux are right within 8 % for b/a 0.5 to 4 at all speeds, within 5.5 % for circles.
+    largest and the mean temperature per flux are right within 5 % for circles and ellipses along the motion (b/a from 0.25 to
+    1), within 8 % for b/a up to 8, at all speeds.
     """
-    return a * (1.064 + 1.632 * peclet**0.696), b * (0.772 + 0.02 * peclet)
+    ratio = b / a
+    return a * (0.94 + 0.88 * ratio**0.44 * peclet**0.6), b * (0.89 * ratio**-0.03 + 0.014 * peclet * ratio**1.7)
 
 
 def memory(dt, effusivity, base_dt, depth=math.inf, spread=NONE):

@@ -10,6 +10,7 @@ from tehl_taichi.scene import (
     oil_range,
     resolution,
     scales,
+    slow_surfaces,
     stiff_oil,
     surface_roughness,
     thin_film,
@@ -114,4 +115,5 @@ def wide_domain(scene):
 CHECKS = {resolution.warnings: "cells", domain_warnings.warnings: "room", thin_film.warnings: "film", oil_range.warnings: "oil",
           named_steels.doubts: "steel", cut_passage: "cut", thinned: "moments", doubtful_features: "feature",
           unusual: "unit", idle_keys.doubts: "idle", wide_domain: "inlet", stiff_oil.warnings: "frozen",
-          counted_twice: "residual", left_out_of_window: "window"}
+          counted_twice: "residual", left_out_of_window: "window",
+          slow_surfaces.warnings: "slow"}

@@ -121,3 +121,14 @@ def test_a_window_rides_with_one_surface(surfaces, srr, warned):
     zoomed = dataclasses.replace(GEAR, features=features).replace(srr=srr, **{"zoom.factor": 4})
     assert ("window" in [one.code for one in zoomed.warnings()]) == warned
     assert "window" not in [one.code for one in zoomed.replace(**{"zoom.factor": 0}).warnings()]
+
+
+@pytest.mark.parametrize("ratio, srr, thermal, said", [
+    (3.0, 2.0, True, {"b": 0.07}), (1.5, 1.98, True, {"b": 0.06}), (12.0, -2.0, True, {"a": 0.08}), (1.0, 2.0, True, {}),
+    (0.5, 2.0, True, {}), (3.0, 0.0, True, {}), (3.0, 2.0, False, {})])
+def test_slow_surfaces_of_wide_ellipses_have_their_error(ratio, srr, thermal, said):
+    ball = scene("ball-on-disc").replace(srr=srr, speed=2.0, **{
+        "thermal.on": thermal, "contact.kind": "point" if ratio == 1 else "elliptic", "contact.radius_x": 0.0127,
+        "contact.radius_y": 0.0127 * ratio**1.6})
+    found = {one.data["surface"]: one.data["error"] for one in ball.warnings() if one.code == "slow"}
+    assert found == {name: pytest.approx(error) for name, error in said.items()}
