@@ -124,7 +124,7 @@ def test_a_window_rides_with_one_surface(surfaces, srr, warned):
 
 
 @pytest.mark.parametrize("ratio, srr, thermal, said", [
-    (3.0, 2.0, True, {"b": 0.07}), (1.5, 1.98, True, {"b": 0.06}), (12.0, -2.0, True, {"a": 0.08}), (1.0, 2.0, True, {}),
+    (3.0, 2.0, True, {"b": 0.07}), (1.5, 1.98, True, {"b": 0.06}), (8.5, -2.0, True, {"a": 0.08}), (1.0, 2.0, True, {}),
     (0.5, 2.0, True, {}), (3.0, 0.0, True, {}), (3.0, 2.0, False, {})])
 def test_slow_surfaces_of_wide_ellipses_have_their_error(ratio, srr, thermal, said):
     ball = scene("ball-on-disc").replace(srr=srr, speed=2.0, **{
