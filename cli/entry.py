@@ -95,7 +95,7 @@ def _sentence(error):
 def _plugins_hint():
     """Text naming the plugin files that may have caused an unexpected error, "" without plugins."""
     own = sys.modules.get("tehl_taichi.values.plugins")
-    if own is None or not (files := [module.__file__ for module in own.loaded()]):
+    if own is None or not (files := [module.__file__ for module in own.loaded_modules()]):
         return ""
     return (f". The cause may lie in {', '.join(files)}: functions of laws run in kernels and use only what "
             "tehl_taichi.engine.pointwise offers; `tehl doctor` computes their known values")

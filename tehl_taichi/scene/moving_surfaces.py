@@ -40,8 +40,8 @@ def _stands(speed, operation):
 
 
 def reference_name(scene):
-    """Name of the surface with the first feature; a without features."""
-    return scene.features[0].surface if scene.features else "a"
+    """Name of the surface with the first feature; without features a, or the moving one if a is at rest."""
+    return scene.features[0].surface if scene.features else "a" if scene.operation.u_a else "b"
 
 
 def _pace(speeds, name, reference):

@@ -404,3 +404,11 @@ def test_keys_of_a_scene_typed_as_options_are_named(words, said):
     done = here(*words.split())
     assert done.returncode == 2
     assert said in re.sub(r"[\s│]+", " ", done.stderr + done.stdout)
+
+
+def test_an_error_of_python_without_plugins_names_none():
+    import tehl_cli.entry
+
+    import tehl_taichi.values.plugins  # noqa: F401  as every command loads it
+
+    assert tehl_cli.entry._sentence(OverflowError("too large")) == "too large"

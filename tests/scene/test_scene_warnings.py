@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tehl_taichi.runs.summary import result_warnings
-from tehl_taichi.scene import BUILT_INS, scene, thin_film
+from tehl_taichi.scene import BUILT_INS, scene, thin_film, timeline
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.oil import Oil
@@ -132,3 +132,11 @@ def test_slow_surfaces_of_wide_ellipses_have_their_error(ratio, srr, thermal, sa
         "contact.radius_y": 0.0127 * ratio**1.6})
     found = {one.data["surface"]: one.data["error"] for one in ball.warnings() if one.code == "slow"}
     assert found == {name: pytest.approx(error) for name, error in said.items()}
+
+
+@pytest.mark.parametrize("name", ["ball-on-disc", "smooth-line", "mtm"])
+@pytest.mark.parametrize("srr", [-2.0, 2.0])
+def test_a_surface_at_rest_of_a_smooth_contact_has_its_steps(name, srr):
+    """With temperatures a step is chosen by the pace of the other surface, also if body a is the one at rest."""
+    rests = scene(name).replace(srr=srr, **{"thermal.on": True})
+    assert 0 < timeline.step_length(rests) < 1 and isinstance(rests.warnings(), list)
