@@ -158,7 +158,7 @@ def figures_built_alone(request, monkeypatch):
 def without_library(monkeypatch):
     """Reports without plotly.js, of which each takes 0.2 s to write."""
     document = importlib.import_module("tehl_taichi.report.document")
-    monkeypatch.setattr(document, "library", lambda: document.packed("none"))
+    monkeypatch.setattr(document, "library", lambda: document.pack("none"))
 
 
 @pytest.fixture(params=("f32", "f64"))
