@@ -18,7 +18,9 @@ CODE = [*SOURCES, *sorted(path for folder in ("profiles", "docs") for path in (R
 HOUSE = re.compile(r"""\b(
     tells? | told | telling | (?:go|goes|going|gone|went)\son | bears? | borne | by\sturns | nobody | somebody | anybody |
     ask(?:s|ed)?\sfor | at\shand | what\sthere\sis | as\sit\sstands | (?:take|takes|taken|took)\soff | (?:worst|bad)\soff |
-    companions? | anew | all\sthe\ssame | that\s(?:is|are)\sthere | the\ssame\sof | side\sby\sside | to\sbe\shad
+    companions? | anew | all\sthe\ssame | that\s(?:is|are)\sthere | the\ssame\sof | side\sby\sside | to\sbe\shad |
+    sees?\sto\sit | says?\sit\sall | who\sknows | each\sfor\sitself | in\svain | all\sthere\sis | what\sthere\sare |
+    so\smanieth | by\swhatever | where\snothing\s(?:passes|varies|slips|flows|ends)
     )\b""", re.VERBOSE | re.IGNORECASE)
 # of things that lie beside each other, in lanes and on pages, a docstring may say so
 IN_CODE = {"side by side"}

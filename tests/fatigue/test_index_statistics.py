@@ -13,7 +13,7 @@ from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.march.accuracy.error_bars import GridReading, bar
 from tehl_taichi.report import verdict
-from tehl_taichi.runs.summary import result_warnings, summary, summary_rows
+from tehl_taichi.runs.summary import result_warnings, search_rows, summary
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.rough_surfaces import is_rough
 
@@ -132,10 +132,10 @@ def test_the_summary_has_bars_and_the_table_leads_with_them(taichi_cpu):
     names = [bars for _, bars in summary._parts({"transient": {}, "fatigue_by_surface": {"b": search}})]
     assert {"p99": "b:0 um.p99"}.items() <= names[2].items() and names[3]["share_above_1"] == "b:7 um.share_above_1"
     search["statistics"]["error"] = {"p99": 0.1, "share_above_1": 0.05}
-    rows = dict(row.text_pair for row in summary_rows._distribution_rows(search))
+    rows = dict(row.text_pair for row in search_rows._distribution_rows(search))
     assert rows["Fi surface, 99th percentile"] == "1.20 ± 0.10 (130 points)"
     assert rows["share of the surface with Fi > 1"] == "12.0 ± 5.0 %" and "Fi below, median, at 7 um" in rows
-    plain = [row.what for row in summary_rows._distribution_rows({**search, "rough": False})]
+    plain = [row.what for row in search_rows._distribution_rows({**search, "rough": False})]
     assert plain == ["share of the surface under the feature with Fi > 1"]
 
 

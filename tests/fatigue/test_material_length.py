@@ -9,7 +9,7 @@ from tehl_taichi.fatigue import assessment, judged_layers, material_length
 from tehl_taichi.fatigue.stress.averaging import AveragedReader
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.report import verdict
-from tehl_taichi.runs.summary import summary_rows
+from tehl_taichi.runs.summary import search_rows
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 ISOTHERMAL = {"thermal.on": False, "srr": -0.12}
@@ -96,7 +96,7 @@ def test_it_leads_where_its_error_alone_is_known(error, wide_error, leads):
 def test_both_are_printed():
     fatigue = found(100e-6)["a"]
     fatigue["averaged"]["error"] = {"Fi_max": 0.01}
-    rows = [row.text_pair[0] for row in summary_rows.rows_of_fatigue(fatigue)]
+    rows = [row.text_pair[0] for row in search_rows.rows_of_fatigue(fatigue)]
     assert "Fi_max at the surface" in rows and "Fi_max of averaged stresses, surface, over 100 um" in rows
     depth = fatigue["averaged"]["below"]["depth_m"] * 1e6
     assert any(row.startswith(f"Fi_max of averaged stresses, below, over 100 um, at {depth:.3g}") for row in rows)

@@ -9,7 +9,7 @@ from tehl_taichi.fatigue import assessment
 from tehl_taichi.fatigue.search_result import LIMITS
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.report import scene_text
-from tehl_taichi.runs.summary import limit_meaning, summary_rows
+from tehl_taichi.runs.summary import limit_meaning, search_rows, summary_rows
 from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
@@ -122,7 +122,7 @@ def test_the_smooth_contact_has_the_limit_of_its_depth(case):
 
 
 def test_rows_name_what_holds_at_the_worst_depth(case, plain):
-    shown = [row.text_pair for row in summary_rows.rows_of_fatigue(case.summary)]
+    shown = [row.text_pair for row in search_rows.rows_of_fatigue(case.summary)]
     deep = case.summary["below"]
     assert ("with kappa, sigma_eF", f"{deep['kappa_F']:.4g}, {deep['sigma_eF_Pa'] / 1e6:.4g} MPa") in shown
     assert ("residual stress along x / y", "0 / 0 MPa") in shown

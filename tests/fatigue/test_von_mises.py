@@ -12,7 +12,7 @@ from tehl_taichi.fatigue import assessment, contact_alone
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.von_mises import largest, von_mises
 from tehl_taichi.report import verdict
-from tehl_taichi.runs.summary import summary_rows
+from tehl_taichi.runs.summary import search_rows
 from tehl_taichi.runs.summary.result_warnings import yielding
 from tehl_taichi.scene import yield_stress
 from tehl_taichi.scene.scales import Scales
@@ -112,5 +112,5 @@ def test_without_a_search_pressures_are_compared_with_the_onset_under_asperities
 
 def test_it_is_printed_with_what_the_body_bears():
     fatigue = search()[2]
-    row, = [row for row in summary_rows.rows_of_fatigue(fatigue) if row.what == "largest von Mises stress"]
+    row, = [row for row in search_rows.rows_of_fatigue(fatigue) if row.what == "largest von Mises stress"]
     assert row.number == fatigue["von_mises"]["max_Pa"] and row.note == ", yield stress 2.2 GPa" and "GPa" in row.value

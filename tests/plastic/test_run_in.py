@@ -18,7 +18,7 @@ from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_o
 from tehl_taichi.plastic import elastic_loads, run_in, run_in_numbers, steel_body
 from tehl_taichi.plastic.layers import Layers
 from tehl_taichi.plastic.surface_change import SurfaceChange
-from tehl_taichi.runs.summary import summary_rows
+from tehl_taichi.runs.summary import search_rows
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.store import run_in_file
 from tehl_taichi.store.integrity import CHECKPOINTS
@@ -202,7 +202,7 @@ def test_the_critical_point_below_says_the_residual_stress_that_it_has(table):
     assert found["residual_xx_Pa"] - before == pytest.approx(1e12 * (4e-6 + 1e-6 + 6e-6))
     assert found["residual_yy_Pa"] == pytest.approx(2e12 * (4e-6 + 1e-6 + 6e-6))
     assert bool(bare) == bool(table) == ("sigma_eF_Pa" in found)
-    rows = dict(row.text_pair for row in summary_rows._local_rows(found))
+    rows = dict(row.text_pair for row in search_rows._local_rows(found))
     assert rows["residual stress along x / y"].startswith(f"{found['residual_xx_Pa'] / 1e6:.4g} / 22")
 
 

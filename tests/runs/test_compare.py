@@ -114,9 +114,9 @@ def test_the_change_of_two_runs_is_told_where_it_means_something(made, monkeypat
     (0.0, None, 0.3, "")])
 def test_no_change_from_what_may_be_nothing(first, error, second, change):
     from tehl_taichi.runs.compare_rows import _line
-    from tehl_taichi.runs.summary.summary_rows import _of
+    from tehl_taichi.runs.summary.summary_row import row_of
 
-    rows = [_of({"h": h, "error": {"h": bar}}, "h", "film") for h, bar in ((first, error), (second, None))]
+    rows = [row_of({"h": h, "error": {"h": bar}}, "h", "film") for h, bar in ((first, error), (second, None))]
     assert _line("film", rows).change == change
 
 

@@ -374,7 +374,7 @@ def test_a_run_without_a_passage_or_companions_has_no_bars(passage):
 
 
 def test_a_summary_has_numbers_or_null():
-    from tehl_taichi.runs.summary.summary_rows import quantity
+    from tehl_taichi.runs.summary.summary_row import quantity
 
     values = {"film": 1.5e-6, "error": {"film": None}}
     assert quantity(values, "film", 1e6, "um") == "1.5 um (error unknown)"
