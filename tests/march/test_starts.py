@@ -136,7 +136,7 @@ def test_walls_yield_in_the_steady_equations_but_not_on_the_way(monkeypatch):
     from tehl_taichi.pressure import fields
 
     forced_in_time(monkeypatch)
-    seen = {"exchange": [], "again": []}
+    seen = {"exchange": [], "solve_again": []}
     for name, walls in seen.items():
         def looked(solver, *rest, name=name, walls=walls, real=getattr(pseudo_transient, name)):
             strains = bool(solver.levels.G[0, fields.WALL])
@@ -151,7 +151,7 @@ def test_walls_yield_in_the_steady_equations_but_not_on_the_way(monkeypatch):
                         *rest: (judged(march, *rest), levels.append(march.levels))[0])
     first()
     assert seen["exchange"] == sorted(seen["exchange"]) and set(seen["exchange"]) == {False, True}
-    assert set(seen["again"]) == {True}
+    assert set(seen["solve_again"]) == {True}
     assert levels and all(one.G[0, fields.WALL] > 0 for one in levels)
 
 

@@ -51,7 +51,7 @@ def test_a_scene_that_does_not_converge_says_why(tmp_path, monkeypatch):
     def lost(*args):
         raise NotConverged("step 3: residual 1e-2")
 
-    monkeypatch.setattr(verdict, "completed", lost)
+    monkeypatch.setattr(verdict, "run_or_resume", lost)
     rows = list(verdict.rows("dent", tmp_path))
     assert [row.reason for row in rows] == ["step 3: residual 1e-2"] * len(verdict.VARIANTS)
     assert "step 3" in verdict.page(rows)

@@ -28,7 +28,7 @@ def body(name, Fi, error, averaged=None):
 def rows(tmp_path, monkeypatch, *bodies):
     """Rows of a run with these summaries, the worse first."""
     run = types.SimpleNamespace(summary={"fatigue_by_surface": {one["surface"]: one for one in bodies}})
-    monkeypatch.setattr(zoomed_conclusions, "completed", lambda *given, **more: run)
+    monkeypatch.setattr(zoomed_conclusions, "run_or_resume", lambda *given, **more: run)
     description = zoomed_conclusions._sized(conclusions.cases()[CASE], False, 4)
     assert description.zooms and description.zoom.factor == 4
     return zoomed_conclusions.rows(CASE, description, tmp_path)
@@ -64,7 +64,7 @@ def test_parts_of_the_load_count_in_runs_of_their_own(tmp_path, monkeypatch):
         Fi = part * (1.0 if description.operation.srr < 0 else 1.2)
         return types.SimpleNamespace(summary={"fatigue_by_surface": {name: body(name, Fi, 0.01) for name in "ab"}})
 
-    monkeypatch.setattr(zoomed_conclusions, "completed", run)
+    monkeypatch.setattr(zoomed_conclusions, "run_or_resume", run)
     both = {name: one for name, one in conclusions.cases().items() if name in zoomed_conclusions.BY_PARTS}
     monkeypatch.setattr(conclusions, "cases", lambda quick=False: both)
     found = zoomed_conclusions.run(tmp_path, 4)
@@ -81,6 +81,6 @@ def test_a_run_that_does_not_converge_gives_its_reason(tmp_path, monkeypatch):
     def fail(*given, **more):
         raise NotConverged("it stops at 0.3 a")
 
-    monkeypatch.setattr(zoomed_conclusions, "completed", fail)
+    monkeypatch.setattr(zoomed_conclusions, "run_or_resume", fail)
     row, = zoomed_conclusions.rows(CASE, zoomed_conclusions._sized(conclusions.cases()[CASE], True, 2), tmp_path)
     assert row.reason == "it stops at 0.3 a" and row.grid == "32x8 zoom 2"

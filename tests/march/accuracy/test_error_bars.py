@@ -250,7 +250,7 @@ def test_a_battery_of_rough_surfaces_has_both_slips_and_bodies():
         assert [f.surface for f in one.features] == (["a", "b"] if "pair" in kind else ["a"])
         assert len(coverage.coarse_runs.scenes(one)[0]) == 2 and all(1e-7 <= f.height <= 5e-7 for f in one.features)
     assert {one.operation.srr > 0 for _, one in drawn} == {True, False}
-    assert coverage.battery(4)[-14][0] == "rough" and len(coverage.battery(4)) == 62 + 6 + 14
+    assert coverage.battery(4)[-14][0] == "rough" and len(coverage.battery(4)) == 62 + 10 + 14
 
 
 def test_the_numbers_of_rough_surfaces_that_settle_are_judged():
