@@ -37,6 +37,7 @@ def step_between_walls(heat, levels, P, h, touch, rate=1e-6):
     heat.step.values[:] = 0.0
     heat.step.set(rate=rate, inv_x=1e-12, tolerance=1e-9, iterations=40, near=1.0)
     for _ in range(3):
+        heat.values()  # what the pressure drives heats by the fluidity of the last round
         heat.solve()
     return np.stack([heat.columns.single(name)[0] for name in (film_tables.QA, film_tables.QB)])
 
