@@ -190,8 +190,8 @@ def test_a_march_that_is_lost_is_no_state(monkeypatch):
 
 @pytest.mark.slow
 def test_a_slip_that_no_step_follows_grows_more_slowly(monkeypatch):
-    """Of the finest grid, from the same cold start, after the coarser grid was lost: the state of a march that was not lost, but
-    for the way that it came."""
+    """On the finest grid, from the same cold start, after the coarser grid was lost: the state of a march that was not lost,
+    but for the way that it came."""
     from tehl_taichi.march import pseudo_transient
 
     forced_in_time(monkeypatch)
