@@ -61,53 +61,37 @@ def with_feature(F: ti.template(), at: ti.template(), row, ways: ti.template(), 
     return out
 
 
-@ti.kernel
-def extrapolate(F: ti.template(), G: Table, order: ti.template(), rows: Flat, ways: Table, weights: Table, edges: LinearTable,
-                by_edge: ti.template(), alone: ti.template()):
-    """Compute the predictions: polynomials of degree 1 to `order` through the states in `rows`."""
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1, serialize=alone)
-    for c in range(tiles(nx, ny)):
-        s, first, last = tile(c, nx)
-        for i in range(first, last):
-            at = block_at(G, c, i)
-            out = [L(F, 0.0) for _ in ti.static(range(2 * order))]
-            for n in range(order + 1):
-                row = int(rows[n])
-                still, moving = F[row, at.q], with_feature(F, at, row, ways, edges, by_edge, n)
-                for g in ti.static(range(order)):
-                    weight = ti.cast(weights[g, n], F.dtype)
-                    out[g] += weight * still
-                    out[order + g] += weight * moving
-            for g in ti.static(range(2 * order)):
-                F[MADE + g, at.q] = out[g]
+@ti.func
+def predict(F: ti.template(), at: ti.template(), order: ti.template(), rows: ti.template(), ways: ti.template(),
+            weights: ti.template(), edges: ti.template(), by_edge: ti.template()):
+    """Store the predictions of a column: polynomials of degree 1 to `order` through the states in `rows`."""
+    out = [L(F, 0.0) for _ in ti.static(range(2 * order))]
+    for n in range(order + 1):
+        row = int(rows[n])
+        still, moving = F[row, at.q], with_feature(F, at, row, ways, edges, by_edge, n)
+        for g in ti.static(range(order)):
+            weight = ti.cast(weights[g, n], F.dtype)
+            out[g] += weight * still
+            out[order + g] += weight * moving
+    for g in ti.static(range(2 * order)):
+        F[MADE + g, at.q] = out[g]
 
 
-@ti.kernel
-def judge(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), rows: Flat, edges: LinearTable,
-          alone: ti.template()):
-    """Store the pressure in the first of `rows`, and squared errors of the predictions for it, summed over neighbours
-    along x.
-    """
-    nx, ny, off = cells(G, 0)
-    ti.loop_config(block_dim=1, serialize=alone)
-    for c in range(tiles(nx, ny)):
-        s, first, last = tile(c, nx)
-        row = int(rows[0])
-        for i in range(first, last):
-            at = block_at(G, c, i)
-            there = [ti.min(ti.max(i + t, 0), nx) - i for t in ti.static(range(-1, 2))]
-            pressed = [ti.cast(S[P, at.k + there[t]], F.dtype) for t in ti.static(range(3))]
-            for g in range(2 * order):
-                missed = L(F, 0.0)
-                for t in ti.static(range(3)):
-                    miss = F[MADE + g, at.q + there[t]] - pressed[t]
-                    missed += miss * miss
-                F[MADE + 2 * order + g, at.q] = missed
-            newest = repeated(ti.cast(S[P, at.k], F.dtype), s, ny)
-            F[row, at.q] = newest
-            if s == ny // W:
-                edges[row, i] = newest[W - 1]
+@ti.func
+def compare(S: ti.template(), F: ti.template(), at: ti.template(), order: ti.template(), row, edges: ti.template()):
+    """Store the pressure of a column in `row`, and squared errors of the predictions for it, summed over neighbours along x."""
+    there = [ti.min(ti.max(at.i + t, 0), at.nx) - at.i for t in ti.static(range(-1, 2))]
+    pressed = [ti.cast(S[P, at.k + there[t]], F.dtype) for t in ti.static(range(3))]
+    for g in range(2 * order):
+        missed = L(F, 0.0)
+        for t in ti.static(range(3)):
+            miss = F[MADE + g, at.q + there[t]] - pressed[t]
+            missed += miss * miss
+        F[MADE + 2 * order + g, at.q] = missed
+    newest = repeated(ti.cast(S[P, at.k], F.dtype), at.s, at.ny)
+    F[row, at.q] = newest
+    if at.s == at.ny // W:
+        edges[row, at.i] = newest[W - 1]
 
 
 @ti.func
@@ -118,23 +102,56 @@ def nearby(F: ti.template(), at: ti.template(), row):
     return lower + F[row, at.q] + upper
 
 
-@ti.kernel
-def trust(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), count: Flat, alone: ti.template()):
+@ti.func
+def combine(S: ti.template(), F: ti.template(), at: ti.template(), order: ti.template(), count: ti.template()):
     """Combine the first count[0] predictions of each frame to a pressure, with weights 1/(squared error)."""
+    out, total = L(F, 0.0), L(F, 0.0)
+    for g in ti.static(range(2 * order)):
+        if g % order < int(count[0]):
+            weight = L(F, 1.0) / (nearby(F, at, MADE + 2 * order + g) + L(F, NOTHING))
+            out += weight * F[MADE + g, at.q]
+            total += weight
+    guess = ti.cast(ti.max(out / total, 0.0), ti.f64)
+    S[P, at.k] = repeated(ti.select(S[MASK, at.k] > 0.0, guess, S[P, at.k]), at.s, at.ny)  # the border keeps its own
+
+
+@ti.kernel
+def extrapolate(F: ti.template(), G: Table, order: ti.template(), rows: Flat, ways: Table, weights: Table, edges: LinearTable,
+                by_edge: ti.template(), alone: ti.template()):
+    """See :func:`predict`."""
     nx, ny, off = cells(G, 0)
     ti.loop_config(block_dim=1, serialize=alone)
     for c in range(tiles(nx, ny)):
         s, first, last = tile(c, nx)
         for i in range(first, last):
             at = block_at(G, c, i)
-            out, total = L(F, 0.0), L(F, 0.0)
-            for g in ti.static(range(2 * order)):
-                if g % order < int(count[0]):
-                    weight = L(F, 1.0) / (nearby(F, at, MADE + 2 * order + g) + L(F, NOTHING))
-                    out += weight * F[MADE + g, at.q]
-                    total += weight
-            guess = ti.cast(ti.max(out / total, 0.0), ti.f64)
-            S[P, at.k] = repeated(ti.select(S[MASK, at.k] > 0.0, guess, S[P, at.k]), s, ny)  # the border keeps its own
+            predict(F, at, order, rows, ways, weights, edges, by_edge)
+
+
+@ti.kernel
+def judge(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), rows: Flat, edges: LinearTable,
+          alone: ti.template()):
+    """See :func:`compare`; with the first of `rows`."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for c in range(tiles(nx, ny)):
+        s, first, last = tile(c, nx)
+        row = int(rows[0])
+        for i in range(first, last):
+            at = block_at(G, c, i)
+            compare(S, F, at, order, row, edges)
+
+
+@ti.kernel
+def trust(S: ti.template(), F: ti.template(), G: Table, order: ti.template(), count: Flat, alone: ti.template()):
+    """See :func:`combine`."""
+    nx, ny, off = cells(G, 0)
+    ti.loop_config(block_dim=1, serialize=alone)
+    for c in range(tiles(nx, ny)):
+        s, first, last = tile(c, nx)
+        for i in range(first, last):
+            at = block_at(G, c, i)
+            combine(S, F, at, order, count)
 
 
 class StateExtrapolation:
