@@ -14,7 +14,8 @@ class _Twin:
     """The copy of a small array on the card."""
 
     def __init__(self, array):
-        self.array, key = weakref.ref(array, lambda _: _twins.pop(key, None)), id(array)
+        key, twins = id(array), _twins  # bound here: module names are gone when the interpreter ends
+        self.array = weakref.ref(array, lambda _: twins.pop(key, None))
         self.device = ti.ndarray(ti.lang.util.to_taichi_type(array.dtype), array.shape)
         self.known = None
 

@@ -140,8 +140,9 @@ def _start(arch, threads):
         attempt(rolled_loops.keep_rolled)
         attempt(functools.partial(float_mode.launching, ti.lang.impl.get_runtime().prog, float_mode.now()))
     if arch != "cpu":
-        warnings.warn(f"arch = {arch!r} is experimental: results are those of the cores, but jobs that are cells have not been "
-                      "timed on a card yet; see docs/decisions/06-graphics-cards.md", RuntimeWarning, stacklevel=2)
+        warnings.warn(f"arch = {arch!r} is experimental: faster than 16 cores without temperatures from 1024x256 cells on, "
+                      "slower than one core with temperatures; see docs/decisions/06-graphics-cards.md",
+                      RuntimeWarning, stacklevel=2)
     _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)), cache=cache)
     _home = os.getpid(), threading.get_ident()
 
