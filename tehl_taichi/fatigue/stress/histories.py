@@ -59,9 +59,10 @@ class StressHistories:
         rows = np.flatnonzero((reader.y >= -low * (1 + 1e-9)) & (reader.y <= high * (1 + 1e-9)))
         self.rows = slice(rows[0], rows[-1] + 1)
         self.y = reader.y[self.rows]
+        # as long as all of these points need: what is searched of them does not change the history of one
+        before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
         self._keep(getattr(reader, "searched", {}).get(self.surface.name))
         # centre of the feature and entry of the reader at every moment
-        before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
         self.centres = np.concatenate([before, centres, after])
         pace = self.surface.pace
         self.positions = np.concatenate([positions[0] + (before - centres[0]) / pace, positions,
