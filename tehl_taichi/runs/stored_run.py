@@ -2,6 +2,7 @@
 
 import html
 import warnings
+from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -15,8 +16,9 @@ from tehl_taichi.values.estimate import Quantity
 class Run:
     """A stored run; :func:`tehl_taichi.run`, :func:`tehl_taichi.open` and :func:`tehl_taichi.resume` return one.
 
-    `run["p_max"]` is a number with its error and unit; `run.summary` holds all numbers, `run.store.fields(n)` the arrays (nx+1,
-    ny+1) of entry n in SI units, `run.to_xarray()` everything. A notebook shows a run as a table.
+    `run["p_max"]` is a number with its error and unit, `list(run)` the names of all numbers. `run.summary` holds
+    all numbers, `run.store.fields(n)` the arrays (nx+1, ny+1) of entry n in SI units, `run.to_xarray()` everything. A notebook
+    shows a run as a table.
 
     Attributes
     ----------
@@ -81,14 +83,31 @@ class Run:
         Raises
         ------
         UnknownName
-              The run has no such number (the message proposes the nearest one), or is not finished.
+              The run has no such number (the message proposes the nearest one; `list(run)` lists all), or is not finished.
         """
         if not self.summary:
             raise UnknownName(f"{self.path} is not finished: it has no summary; tehl_taichi.resume finishes it")
         return summary_numbers.find(self.summary, name)
 
+    def __iter__(self) -> Iterator[str]:
+        """Full names of all numbers of the summary; none if the run is not finished.
+
+        Examples
+        --------
+        >>> import tehl_taichi as tehl
+        >>> scene = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+        >>> run = tehl.run(scene, "listed.zarr")
+        >>> [name for name in run if name.startswith("hertz")], "p_max" in run, "friction" in run
+        (['hertz.a_m', 'hertz.p_Pa'], True, False)
+        """
+        return iter(summary_numbers.all_numbers(self.summary))
+
+    def __contains__(self, name: object) -> bool:
+        """Whether `run[name]` is a number."""
+        return summary_numbers.contains(self.summary, name)
+
     def _ipython_key_completions_(self):
-        return list(summary_numbers.all_numbers(self.summary))
+        return list(self)
 
     def fatigue(self, *, progress: Any = None, threads: int | None = None, until: float | None = None, **constants: Any) -> Any:
         """Recompute its fatigue with other constants, see :func:`tehl_taichi.fatigue`; the store is not changed.

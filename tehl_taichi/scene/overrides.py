@@ -11,7 +11,7 @@ from tehl_taichi.scene.sections import SECTIONS
 from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.scene.timeline import ALL
-from tehl_taichi.values.checks import key_shown, nearest
+from tehl_taichi.values.checks import ALL_KEYS, key_shown, known_names, nearest
 from tehl_taichi.values.coerce import plain, shown, text_of
 from tehl_taichi.values.quantity import kinds
 
@@ -194,7 +194,7 @@ def _feature(data, number, dotted):
 
 def _unknown(dotted, key, known):
     meant = _with_section(dotted) or nearest(key, known)
-    return SceneError(f"unknown key {key_shown(dotted)}{meant}; known: {', '.join(map(str, known))}")
+    return SceneError(f"unknown key {key_shown(dotted)}{meant}; {known_names(known, ALL_KEYS)}")
 
 
 def _with_section(key):

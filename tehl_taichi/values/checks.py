@@ -12,6 +12,8 @@ from tehl_taichi.values.coerce import plain, shown
 from tehl_taichi.values.unit_hints import hint
 
 HUGE = 10**300  # whole numbers beyond it are no floats
+MANY = 20  # names that a message lists at most
+ALL_KEYS = "`tehl new FILE`"  # writes a scene file with every key
 
 
 def number(where, value, unit="", low=-math.inf, high=math.inf, strict=False, infinite=False, usual=0.0, least=0.0):
@@ -105,6 +107,12 @@ def nearest(word, allowed):
     return f" (did you mean {known[max(close, key=lambda one: _likeness(one, word.lower()))]!r}?)" if close else ""
 
 
+def known_names(known, place):
+    """End of a message about an unknown name: up to MANY known names, or the `place` (text) that lists all of them."""
+    names = list(map(str, known))
+    return f"known: {', '.join(names)}" if len(names) <= MANY else f"all {len(names)} names: {place}"
+
+
 def _with(word, known):
     """Names that contain a word of at least three letters, or a shorter one between underscores."""
     return [name for name in known if len(word) > 2 and word in name or word in name.split("_")]
@@ -132,7 +140,8 @@ def build(cls, values, section, general=None):
     known = [f.name for f in dataclasses.fields(cls)]
     for key in values:
         if key not in known:
-            raise SceneError(f"unknown key {section}.{key_shown(key)}{nearest(key, known)}; known: {', '.join(known)}")
+            raise SceneError(f"unknown key {section}.{key_shown(key)}{nearest(key, known)}; "
+                             f"{known_names(known, ALL_KEYS)}")
     with messages_about(section, general or section):
         return cls(**values)
 

@@ -187,6 +187,13 @@ def test_a_number_of_a_run_by_its_name(done):
     assert "transient.h_min_m" in run._ipython_key_completions_()
     with pytest.raises(KeyError, match="'p_mx' is no number of this run .did you mean 'p_max'"):
         run["p_mx"]
+    with pytest.raises(tehl.UnknownName) as unknown:
+        run["friction"]
+    names = list(run)
+    assert len(names) > 60 and all(name in run and run[name].value is not None for name in names)
+    assert "p_max" in run and "friction" not in run
+    assert str(unknown.value) == ("'friction' is no number of this run (did you mean 'friction_coefficient'?); "
+                                  f"all {len(names)} names: list(run)")
     assert issubclass(tehl.UnknownName, tehl.Error)
 
 

@@ -1,6 +1,7 @@
 """Every value of a scene is declared once, and what is declared is what is checked and printed."""
 
 import math
+import re
 
 import pytest
 
@@ -112,3 +113,20 @@ def test_a_part_of_a_name_finds_it():
     assert nearest("friction", ["transient_friction_coefficient_mean", "x"]).endswith("'transient_friction_coefficient_mean'?)")
     assert nearest("HV", ["depth_um", "hardness_HV"]) == " (did you mean 'hardness_HV'?)"
     assert nearest("qqq", ["x", "steady"]) == nearest("st", ["xxxxxxxxxxxxxxxst"]) == ""
+
+
+@pytest.mark.parametrize("change, said", [
+    ({"oil.frictn": 1}, "unknown key oil.frictn"),
+    ({"feature.0.hight": 1}, "unknown key feature.hight (did you mean 'height'?)"),
+    ({"frction": 1}, "unknown key frction (did you mean 'operation'?)")])
+def test_long_lists_of_names_are_not_printed(change, said):
+    """45 keys of an oil hide the proposal; the file of `tehl new` has all."""
+    with pytest.raises(SceneError) as error:
+        scene("gear").replace(**change)
+    head, _, tail = str(error.value).partition("; ")
+    assert head == said and re.fullmatch(r"all \d\d names: `tehl new FILE`", tail)
+
+
+def test_short_lists_of_names_are_printed():
+    with pytest.raises(SceneError, match="^unknown key grid.frction; known: nx, ny, x_min, x_max, y_max, inlet$"):
+        scene("gear").replace(**{"grid.frction": 1})

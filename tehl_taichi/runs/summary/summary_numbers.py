@@ -1,7 +1,7 @@
 """All numbers of a summary by their full names, with error, unit, and the reason of an unknown error."""
 
 from tehl_taichi.errors import UnknownName
-from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.checks import known_names, nearest
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.estimate import Quantity
 from tehl_taichi.values.summary_units import unit_of
@@ -29,10 +29,21 @@ def _numbers(values, above):
 def find(summary, name):
     """Quantity with this name, with or without its part and its unit. Raises UnknownName."""
     known = all_numbers(summary)
-    fitting = [full for full in known if name in _names(full)]
+    fitting = _fitting(known, name)
     if not fitting:
-        raise UnknownName(f"{shown(name)} is no number of this run{nearest(name, _short(known))}; it has {', '.join(known)}")
+        raise UnknownName(f"{shown(name)} is no number of this run{nearest(name, _short(known))}; "
+                          f"{known_names(known, 'list(run)')}")
     return known[min(fitting, key=_order)]
+
+
+def contains(summary, name):
+    """Whether :func:`find` finds a number with this name."""
+    return bool(_fitting(all_numbers(summary), name))
+
+
+def _fitting(known, name):
+    """Full names of the numbers with this name."""
+    return [full for full in known if name in _names(full)]
 
 
 def _names(full):

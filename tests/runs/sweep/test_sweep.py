@@ -21,6 +21,7 @@ from tehl_taichi.runs.sweep import pool, study_labels, sweeping
 from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.runs.sweep.study_table import Study
 from tehl_taichi.scene import SceneError, scene
+from tehl_taichi.values import checks
 
 GEAR = scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16})
 OVER = {"srr": "-0.1:0.1:3", "feature.height": [0.5e-6, 1e-6, 1.5e-6]}
@@ -178,11 +179,20 @@ def test_pictures_of_a_study(study, tmp_path):
     names = {path.name for path in study.plot(tmp_path, dpi=40)}
     assert names == {f"{name}_{kind}.png" for name in ("fatigue_Fi_max", "transient_h_min_m", "transient_p_max_Pa")
                      for kind in ("lines", "map")} | {"Fi_over_h_min.png"}
-    with pytest.raises(StoreError, match="did you mean 'steady_h_c_m'"):
+    with pytest.raises(StoreError, match="did you mean 'steady_h_c_m'.*; known: wall_s"):
         study.plot(tmp_path, "steady_h_m")
     drawn = plan(GEAR, {"srr": "-0.1:0.1", "height": "1e-7:1e-6:log", "rheology.law": ["eyring", "newtonian"]}, samples=6)
     sampled = sweeping.run(drawn, tmp_path / "s.zarr", workers=1, work=formula)
     assert sampled.plot(tmp_path / "p", "fatigue_Fi_max")[0].name == "fatigue_Fi_max_points.png"
+
+
+def test_many_columns_are_not_listed(study, tmp_path, monkeypatch):
+    pytest.importorskip("matplotlib")
+    monkeypatch.setattr(checks, "MANY", len(study.values) - 1)
+    with pytest.raises(StoreError, match="did you mean 'steady_h_c_m'") as unknown:
+        study.plot(tmp_path, "steady_h_m")
+    assert str(unknown.value).endswith(f"; all {len(study.values)} names: first line of {study.table}")
+    assert set(study.values) <= set(study.table.read_text().splitlines()[0].split(","))
 
 
 def test_lines_carry_the_errors_that_are_known(study):
