@@ -28,7 +28,7 @@ PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt
 
 
 class Snapshots:
-    """A list of snapshots (all of one grid) as the reader that :func:`run` wants; residual_fields: {surface: ResidualField}."""
+    """Reader of a list of snapshots on one grid, as :func:`run` takes it; residual_fields: {surface name: ResidualField}."""
 
     def __init__(self, snapshots, residual_fields=None):
         self.items = list(snapshots)
@@ -53,18 +53,19 @@ class Snapshots:
 
 
 def run(scene, reader, progress=None, until=None, alone=True):
-    """The SearchResult of the worse body of a passage, with that of the other (of those that the scene has `judged`).
+    """Search the fatigue of a passage; return the SearchResult of the worse body, with the other body's result in it.
 
-    Of the points within 0.6 a of the first feature (0.3 a beyond larger ones), and of what features slide over. At all points
-    of the surface and, unless scene.fatigue.depths is empty, below it: under the row through the feature (and the surface's
-    worst row), the depth looked for (:mod:`tehl_taichi.fatigue.depth_profile`), on a whole domain at all points of that depth,
-    too (:mod:`tehl_taichi.fatigue.depth_search`); where depths are listed also at all points at these.
-    Between its from_x and to_x, by its criterion. reader: see :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; or
-    a list of snapshots. progress: called with (done, total) parts. until: position (a) of the feature; the worst points of the
-    moments up to there are reported, too ("resolved" of the summary). alone: whether the smooth contact is searched, too.
-    On the rows of the reader (where they begin with y = 0, the others are its mirror). Memory: one block of histories
-    (1 GB at most), with thermal stress 8 bytes more per entry and wave number (4 nodes of the grid).
-    Raises SceneError when no feature passes.
+    The bodies are those of `scene.judged`. The points lie within 0.6 a of the first feature (0.3 a beyond the rim of larger
+    features) and where features slide over the surface. The criterion and the moments (from_x to to_x) are those of
+    `scene.fatigue`. Searched are all points of the surface, all points of the depths that `scene.fatigue.depths` lists and,
+    unless it is empty, the depths under single rows (:mod:`tehl_taichi.fatigue.depth_search`). Rows that begin with y = 0 are
+    mirrored.
+
+    reader: a list of snapshots, or a reader as :class:`tehl_taichi.fatigue.stress.histories.StressHistories` describes it.
+    progress: called with (done, total) parts. until: position (a) of the feature; the worst points of the moments up to there
+    are also reported ("resolved" of the summary). alone: whether the smooth contact is searched, too.
+    Memory: one block of histories (at most 1 GB); thermal stress needs 8 bytes more per entry and wave number (one wave number
+    per 4 nodes of the grid). Raises SceneError if no feature passes.
     """
     reader = Snapshots(reader) if isinstance(reader, (list, tuple)) else reader
     centres = np.array([reader.feature_x(n) for n in range(len(reader))])
@@ -89,13 +90,13 @@ def _with_length(result, scene, surface, reader, centres, progress):
 
 
 def worse_of(results):
-    """The SearchResult of one or two bodies with the largest index, with the other one in it."""
+    """The SearchResult with the largest index of one or two (a list), with the other one in it."""
     worst, *others = sorted(results, key=lambda found: -largest(found.summary))
     return replace(worst, other=others[0] if others else None)
 
 
 def largest(summary):
-    """The largest index of a search, at the surface or below it."""
+    """Largest index of the summary of a search, at the surface or below it."""
     return max(summary["Fi_max"], summary.get("below", summary)["Fi_max"])
 
 
@@ -105,7 +106,7 @@ def _share(progress, n, count):
 
 
 def _of_surface(scene, surface, reader, centres, progress, until, alone):
-    """The SearchResult of one body."""
+    """SearchResult of one body. Raises SceneError if fewer than two stored moments count."""
     passage = StressHistories(scene, reader, centres, surface=surface)
     if passage.centres.size < 2:
         f = scene.fatigue
@@ -127,7 +128,8 @@ def _of_surface(scene, surface, reader, centres, progress, until, alone):
 
 
 def _stressed(scene, passage, surface, alone):
-    """Stressed volume and surface, {} where they are not wanted, or the smooth contact was not searched over the depth."""
+    """{name: number} of the stressed volume and surface; {} if the scene has no Weibull exponent, or the smooth contact was not
+    searched below the surface."""
     f = scene.fatigue
     if not f.weibull or not alone or not f.depths:
         return {}
@@ -136,8 +138,10 @@ def _stressed(scene, passage, surface, alone):
 
 
 def _early(passage, until):
-    """Moments with the feature up to `until` (a) and the unloaded one; None where they are not wanted, or these are all or
-    none."""
+    """Numbers of the moments with the feature up to `until` (a), and of the unloaded one.
+
+    None if `until` is None, or if these are all moments or fewer than two.
+    """
     if until is None:
         return None
     first = np.flatnonzero(passage.positions <= (until + 1e-9) * passage.a)
@@ -145,6 +149,7 @@ def _early(passage, until):
 
 
 def _result(scene, passage, layers, below, alone):
+    """SearchResult of one body from its layers (the surface first), its DepthResult and its smooth contact (or None)."""
     surface, strength, centres = layers[0], passage.strength, passage.positions
     local, limit = strength.at(0.0), strength.surface_limit
     summary = {"surface": passage.surface.name, "carries_feature": bool(passage.surface.features),
@@ -184,13 +189,15 @@ def _result(scene, passage, layers, below, alone):
 
 
 def _statistics(layer, counts, limit):
-    """Statistics of all points of a layer that features pass, with the mean number of their cycles above the limit."""
+    """Index statistics of a layer, with the mean number of cycles above the limit (Pa); counts: weights of its points."""
     return {**index_statistics.statistics(layer.f / limit, counts), "cycles_above_1": float(np.nanmean(layer.cycles))}
 
 
 def _statistics_below(below, counts, passage):
-    """Statistics of the points under the searched rows, at the depth with the largest 99th percentile, and "by_depth"; "plane":
-    of the plane that was searched at all its points, where there is one."""
+    """Statistics of the points under the searched rows, at the depth with the largest 99th percentile, and "by_depth".
+
+    "plane": statistics of the depth that was searched at all its points, if one was.
+    """
     found = index_statistics.below(passage, below.profiles, counts)
     if below.plane:
         found["plane"] = {"depth_m": below.plane.depth,
@@ -199,13 +206,13 @@ def _statistics_below(below, counts, passage):
 
 
 def _cut(fatigue):
-    """Positions of the feature (a) between which moments count; {} where all do."""
+    """{name: position of the feature (a)} between which moments count; {} if all count."""
     ends = {"from_x_a": fatigue.from_x, "to_x_a": fatigue.to_x}
     return {key: float(x) for key, x in ends.items() if np.isfinite(x)}
 
 
 def _limits(fatigue, strength):
-    """The limits that determine its constants, Pa; {} if the constants or a table were given."""
+    """{name: limit (Pa)} from which the constants follow; {} if the constants or a table were given."""
     if strength.table is not None:
         return {}
     return {f"{key}_Pa": float(getattr(fatigue, key)) for key in fatigue_limits.given_limits(vars(fatigue))}

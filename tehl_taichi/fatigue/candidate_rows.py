@@ -1,9 +1,9 @@
-"""Rows under which the body may be worst loaded at some depth: from a rough measure at all points and many depths.
+"""Rows under which the worst point below the surface may lie: from a rough measure at all points and many depths.
 
-The critical planes of all points at all depths would take as long as a passage. What one place is worse than another shows in a
-few stresses already: half of what each shear ranges over, in the planes of the axes and at 45 degrees to them, at every few
-moments. A dent with a rim (256 x 128 cells): from the rows of feature and surface alone Fi = 1.18 at 1.2 um, 1.22 at 4 um 80 um
-away from them.
+A search of the critical planes of all points at all depths takes as long as the passage itself. The rough measure is half the
+range of a shear stress over every MOMENTS-th entry: the largest of six shears, on the planes of the axes and at 45 degrees to
+them. Example, a dent with a rim on 256 x 128 cells: the rows of the feature and of the worst surface point give Fi = 1.18 at
+1.2 um depth; the worst point has 1.22 at 4 um, under a row 80 um away.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -12,17 +12,17 @@ import numpy as np
 
 from tehl_taichi.fatigue.stress.workers import WORKERS
 
-DEPTHS = 2  # every so many rungs of the ladder of depths
-MOMENTS = 4  # and every so many entries
-APART = 0.25  # a: other peaks of the measure lie that far apart
-MOST = 2  # rows of each set of moments
+DEPTHS = 2  # every second depth of the ladder is measured
+MOMENTS = 4  # at every fourth entry
+APART = 0.25  # a: least distance between two peaks of the measure
+MOST = 2  # rows for each set of moments
 
 
 def rows(passage, depths, windows, notify=lambda done, total: None):
-    """Numbers (of rows of the reader) of the MOST worst places of each of `windows`: moments that count.
+    """Numbers of the reader's rows through the MOST worst points, for each set of moments.
 
-    passage: a :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; depths: m, of which every DEPTHS-th is looked at.
-    notify: called with (done, total) depths.
+    passage: a :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; depths: (n,) m, of which every DEPTHS-th is
+    measured; windows: sets of moments (slices or arrays of their numbers); notify: called with (done, total) depths.
     """
     some, worst = depths[::DEPTHS], [np.zeros((passage.x.size, passage.y.size)) for _ in windows]
     for done, depth in enumerate(some, 1):
@@ -33,7 +33,7 @@ def rows(passage, depths, windows, notify=lambda done, total: None):
 
 
 def _ranges(passage, depth, windows):
-    """The measure (windows, x', rows) at a depth."""
+    """The measure (windows, x', rows) Pa at a depth (m)."""
     operator, entries = passage.operator(depth), np.unique(passage.entries)[::MOMENTS]
     parts = np.array_split(entries, WORKERS)
     with ThreadPoolExecutor(WORKERS) as pool:
@@ -42,7 +42,7 @@ def _ranges(passage, depth, windows):
 
 
 def _extremes(passage, operator, entries, windows):
-    """(least, most), each (windows, shears, x', rows): of the body's shears at these entries, and unloaded."""
+    """(smallest, largest) shears of these entries and of the unloaded state (0), each (windows, shears, x', rows) Pa."""
     shape = len(windows), 6, passage.x.size, passage.y.size
     low, high = np.zeros(shape), np.zeros(shape)
     counted = [set(np.arange(passage.centres.size + 1)[moments]) for moments in windows]
@@ -58,13 +58,13 @@ def _extremes(passage, operator, entries, windows):
 
 
 def _shears(s):
-    """(columns, rows, 6): in the planes of the axes, and at 45 degrees to them."""
+    """Shears (columns, rows, 6) Pa on the planes of the axes, and at 45 degrees to them, of stresses {component: array}."""
     return np.stack([s["sxy"], s["sxz"], s["syz"], 0.5 * (s["sxx"] - s["szz"]), 0.5 * (s["syy"] - s["szz"]),
                      0.5 * (s["sxx"] - s["syy"])], axis=-1)
 
 
 def _peaks(passage, measure):
-    """Rows of the highest places, APART from each other."""
+    """Rows of the MOST highest points of a measure (x', rows), which lie APART from each other."""
     x, y, left, out = passage.x[:, None], passage.y[None, :], measure.copy(), []
     for _ in range(MOST):
         i, row = np.unravel_index(int(np.argmax(left)), left.shape)

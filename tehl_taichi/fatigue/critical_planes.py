@@ -1,12 +1,12 @@
-"""Critical planes for many points at once: max over planes of a criterion, as Findley's tau_amp + kappa * sigma_n,max.
+"""Critical planes of many points: the plane with the largest value of a criterion, as Findley's tau_amp + kappa * sigma_n,max.
 
-tau_amp is the radius of the smallest circle around the path of the shear vector on the plane (circle.py).
-One point per parallel iteration, everything inside serial, so results do not depend on the number of threads.
+tau_amp is the radius of the smallest circle around the path of the shear vector on the plane (`enclosing_circle`). Points run
+in parallel, the work on one point is serial, so results do not depend on the number of threads.
 
-What makes it fast is a bound for several planes in one pass over the history: the circle around the shear path may be
-drawn about any centre. About the centre that belongs to the best plane so far (the same mean of the same moments) the
-bound is nearly the value itself, and only planes that are really better are evaluated exactly. And the nearer the planes come
-to each other, the fewer moments can decide between them (deciding.py).
+Two ideas make the search fast. First, one pass over the history bounds the values of several planes: a circle about any centre
+gives an upper bound. The centre of the best plane so far (the same mean of the same moments) gives a bound close to the value,
+so only few planes are evaluated exactly. Second, the closer the planes are to each other, the fewer moments can decide between
+them (`deciding_moments`).
 """
 
 from tehl_taichi.engine.language import ti
@@ -15,22 +15,22 @@ from tehl_taichi.fatigue.enclosing_circle import enclose, vec3
 from tehl_taichi.fatigue.plane_components import mean_stress, plane_frame, project, shear_of, stress, traction, vec6
 from tehl_taichi.fatigue.thinning import all_of, extent, thin
 
-FIRST = 4     # halvings of the step done for every peak; the others only for peaks within CLOSE of the best by then
+FIRST = 4     # halvings of the step for every peak; further ones only for peaks within CLOSE (relative) of the best
 CLOSE = 5e-3
-MOVES = 40    # moves at one step length at most
+MOVES = 40    # largest number of moves with one step length
 TURNS = 3     # turned patterns without success before the step is halved: the maximum often lies on a sharp ridge
-FIRST_TURNS = 2  # the same in the first halvings: 3.1e-7 at most over 3003 points of the gear passage against 13 000 planes a
-                 # point from 4 degrees (with 1: 4.7e-6)
-MARGIN = 0.06  # other peaks of the grid within this of its best are refined too (the grid itself is about 1 % low)
-STARTS = 5      # peaks refined at most: 4 and 20 agree to 2e-7 at every point of the gear passage (4.2 s against 5.6 s)
-SHEARED_MARGIN, SHEARED_STARTS = 0.1, 12  # both where the shear chooses: on the grid planes of equal shear differ by up to 3 %
-NEAR = 0.975   # cosine of the angle (13 degrees) below which planes of the grid belong to one peak
-SAME = 0.9998  # the same (1 degree) for peaks after the first halvings
-TIE = 2.0  # weight of the normal stress over the step, rad: a pattern then follows a ridge of equal shear at every step
-SLACK = 1e-11  # relative rounding of a bound
-KEPT = 1e-12  # relative rounding of a value that fewer moments leave as it is
-REACH = 2.0   # steps that a pattern moves before the moments that decide are chosen again: the same values at 1473 points of a
-              # passage of 539 moments with 0.5 and with 8
+FIRST_TURNS = 2  # the same number in the first halvings: error at most 3.1e-7 at 3003 points of the gear passage, against a
+                 # search of 13 000 planes per point from a 4 degree grid (with 1: 4.7e-6)
+MARGIN = 0.06  # peaks of the grid within this (relative) of its best are refined (the grid itself is about 1 % low)
+STARTS = 5      # largest number of refined peaks: 4 and 20 agree to 2e-7 at every point of the gear passage (4.2 and 5.6 s)
+SHEARED_MARGIN, SHEARED_STARTS = 0.1, 12  # both if the shear alone chooses the plane: grid planes of equal shear differ by 3 %
+NEAR = 0.975   # cosine of 13 degrees: planes of the grid within that angle belong to one peak
+SAME = 0.9998  # cosine of 1 degree: after the first halvings, peaks within that angle are one peak
+TIE = 2.0  # weight of the normal stress over the step (rad): a pattern then follows a ridge of equal shear at every step
+SLACK = 1e-11  # relative rounding error of a bound
+KEPT = 1e-12  # relative rounding error of a value: a smaller change by leaving out moments is none
+REACH = 2.0   # steps that a pattern may move before the deciding moments are chosen again: 0.5 and 8 give the same values at
+              # 1473 points of a passage of 539 moments
 
 LANES = 8     # planes bounded at once: the ring of a pattern search
 lanes = ti.types.vector(LANES, ti.f64)
@@ -39,8 +39,8 @@ PEAK = 5      # numbers kept per peak: normal (3), value, turn
 
 @ti.func
 def value_of(rule: ti.template(), tau, normal, mean, kappa):
-    """The criterion's stress; with `sheared`, where the shear chooses the plane, shear + kappa * normal stress with a kappa
-    that goes to 0 with the step (`tie`): of planes with the same shear the one with the larger normal stress."""
+    """Value (Pa) of the criterion `rule`. If the shear alone chooses the plane (`sheared`): tau + kappa * normal, whose kappa
+    goes to 0 with the step (`tie`), so that the larger normal stress decides between planes of equal shear."""
     out = tau + kappa * normal
     if ti.static(not rule.sheared):
         out = rule.value(tau, normal, mean, kappa)
@@ -49,7 +49,7 @@ def value_of(rule: ti.template(), tau, normal, mean, kappa):
 
 @ti.func
 def tie(rule: ti.template(), kappa, step):
-    """kappa of the criterion, or the weight of the normal stress while a search with this step looks for the largest shear."""
+    """kappa of the criterion; if the shear alone chooses the plane, the weight of the normal stress at this step (rad)."""
     out = kappa
     if ti.static(rule.sheared):
         out = TIE * step
@@ -58,7 +58,7 @@ def tie(rule: ti.template(), kappa, step):
 
 @ti.func
 def bounds(S: ti.template(), some: ti.template(), row, steps, x, y, z, middle, kappa, rule: ti.template()):
-    """Upper bounds of the values on several planes (x, y, z): the circle about the shear of the stress `middle`."""
+    """Upper bounds (LANES,) Pa of the values on planes (x, y, z): circles about the shear of the stress `middle`."""
     ca, cb, cc, cn = traction(middle, x, y, z)
     top, far, mean = lanes(-1e300), lanes(0.0), -1e300
     for q in range(steps):
@@ -74,7 +74,7 @@ def bounds(S: ti.template(), some: ti.template(), row, steps, x, y, z, middle, k
 @ti.func
 def plane_value(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, kappa,
                 rule: ti.template()):
-    """Value of the criterion on plane n, and the mean stress whose shear is the centre of its circle."""
+    """Value (Pa) of the criterion on plane n, and the mean stress (6,) whose shear is the centre of the smallest circle."""
     e1, e2 = plane_frame(n)
     top, mean, la, ha, lb, hb = -1e300, -1e300, 1e300, -1e300, 1e300, -1e300
     ia, ja, ib, jb = 0, 0, 0, 0
@@ -113,6 +113,7 @@ def plane_value(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.t
 
 @ti.func
 def half_chord(a: ti.template(), b: ti.template(), row, steps):
+    """Half of the longest chord of the shear path (a, b) of a row, Pa."""
     longest = 0.0
     for t in range(steps):
         for q in range(t):
@@ -123,7 +124,8 @@ def half_chord(a: ti.template(), b: ti.template(), row, steps):
 @ti.func
 def best_of_ring(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), row, steps, centre, step, turn,
                  value, middle, kappa, rule: ti.template(), prune):
-    """Best of eight planes around `centre` (tilted by `step`): normal, value and middle; the given ones if none is better."""
+    """(normal, value, middle) of the best of eight planes tilted by `step` (rad) around `centre`; the given ones if none is
+    better. prune 0: every plane is evaluated."""
     e1, e2 = plane_frame(centre)
     n, best, mid = centre, value, middle
     x, y, z = lanes(0.0), lanes(0.0), lanes(0.0)
@@ -150,8 +152,10 @@ def best_of_ring(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.
 @ti.func
 def walk(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, step, turn, best, middle,
          kappa, rule: ti.template(), turns, prune):
-    """To the best of eight neighbours, as long as there is a better one; after `turns` turned patterns without it the end.
-    Returns plane, value, middle, the last turn and the number of patterns."""
+    """Move to the best of eight neighbours until `turns` turned patterns find none that is better.
+
+    Returns plane, value, middle, the last turn (rad) and the number of patterns.
+    """
     failed, count = 0, 0
     while failed < turns and count < MOVES:
         count += 1
@@ -166,8 +170,8 @@ def walk(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template
 @ti.func
 def refine(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.template(), row, steps, peak,
            kappa, rule: ti.template(), step0, shrinks, turns, prune, stage):
-    """Pattern search on the sphere, with steps halved `shrinks` times. In stage 1 by those of the moments alone that may count
-    from there on. Returns the number of planes decided."""
+    """Refine a peak by a pattern search on the sphere, with `shrinks` halvings of the step; return the number of planes bounded
+    or evaluated. Stage 1 leaves out moments that can no longer decide."""
     n, best, middle = get_peak(peaks, row, peak)[0], -1e300, vec6(0.0)
     step, turn, decided, moments = step0, peaks[row, peak, 4], 0, steps
     for halving in range(shrinks + 1):  # before the first one: the value of the peak by all of these moments
@@ -196,11 +200,13 @@ def refine(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.templa
 
 @ti.func
 def get_peak(peaks: ti.template(), row, peak):
+    """(normal, value) of a peak."""
     return vec3(peaks[row, peak, 0], peaks[row, peak, 1], peaks[row, peak, 2]), peaks[row, peak, 3]
 
 
 @ti.func
 def put_peak(peaks: ti.template(), row, peak, n, value, turn):
+    """Store normal, value and turn of a peak."""
     for k in ti.static(range(3)):
         peaks[row, peak, k] = n[k]
     peaks[row, peak, 3], peaks[row, peak, 4] = value, turn
@@ -209,7 +215,8 @@ def put_peak(peaks: ti.template(), row, peak, n, value, turn):
 @ti.func
 def scan(S: ti.template(), some: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(),
          b: ti.template(), row, steps, middle, kappa, rule: ti.template(), prune):
-    """Values on all planes of the grid (hopeless ones -1e300), bounded about the shear of `middle`; returns the largest."""
+    """Write the values on all planes of the grid (-1e300 if the bound is too low) and return the largest, Pa; bounds: circles
+    about the shear of `middle`."""
     count = planes.shape[0]
     for group in range((count + LANES - 1) // LANES):
         x, y, z = lanes(0.0), lanes(0.0), lanes(0.0)
@@ -239,7 +246,7 @@ def scan(S: ti.template(), some: ti.template(), planes: ti.template(), values: t
 
 @ti.func
 def take_best(planes: ti.template(), values: ti.template(), row):
-    """(value, normal) of the best plane left on the grid; it and its neighbourhood are crossed out."""
+    """(value, normal) of the best remaining plane of the grid; the planes within NEAR of it are removed."""
     top, chosen = -1e300, 0
     for k in range(planes.shape[0]):
         if values[row, k] > top:
@@ -253,7 +260,7 @@ def take_best(planes: ti.template(), values: ti.template(), row):
 
 @ti.func
 def collect(planes: ti.template(), values: ti.template(), peaks: ti.template(), row, on_grid, rule: ti.template()):
-    """The peaks of the grid worth a refinement; returns how many."""
+    """Write the peaks of the grid that are to be refined into `peaks`; return their number."""
     count, going = 0, 1
     while going == 1 and count < ti.static(SHEARED_STARTS if rule.sheared else STARTS):
         top, n = take_best(planes, values, row)
@@ -267,7 +274,7 @@ def collect(planes: ti.template(), values: ti.template(), peaks: ti.template(), 
 
 @ti.func
 def hopeful(peaks: ti.template(), row, peak, count):
-    """Whether this peak is close to the best one, and none in front of it is the same."""
+    """Whether a peak is within CLOSE of the best one and differs from all peaks before it."""
     n, value = get_peak(peaks, row, peak)
     good = 1
     for other in range(count):
@@ -294,8 +301,11 @@ def circle(steps: ti.i32, a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types
 def look(S: ti.template(), some: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(),
          b: ti.template(), peaks: ti.template(), out: ti.template(), row, steps, kappa, rule: ti.template(), step0, shrinks,
          prune, least):
-    """Find the best plane of a point, by some of its moments first; into its row of `out`, with the planes decided. Of a point
-    with less than `least` on the grid: that of the grid."""
+    """Write the best plane of a point into its row of `out`, with the number of planes bounded or evaluated.
+
+    The first stage uses some of the moments, the second all. Points with less than `least` (Pa) on the grid keep the grid's
+    best plane.
+    """
     low, high = extent(S, row, steps)
     moments = thin(S, some, row, steps, low, high)
     on_grid = scan(S, some, planes, values, a, b, row, moments, 0.5 * (low + high), tie(rule, kappa, step0), rule, prune)
@@ -329,10 +339,10 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
            some: ti.types.ndarray(dtype=ti.i32, ndim=2), out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
     """out[point] = (f, n_x, n_y, n_z, planes decided) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
-    rule: a :class:`tehl_taichi.laws.criteria.criterion.Criterion` whose value may be traced; planes (m, 3): unit normals of the
-    grid; step0: first step, rad, halved `shrinks` times; least: see :func:`look`; known (points, 4): value and plane that a
-    search of more moments found, not looked for again where these have as much there (infinite: not known); scratch: values
-    (points, m), a, b, some (points, steps), peaks (points, SHEARED_STARTS, PEAK).
+    f in Pa. rule: a :class:`tehl_taichi.laws.criteria.criterion.Criterion` whose value can be traced. planes (m, 3): unit
+    normals of the grid. step0: first step, rad, halved `shrinks` times. least: see :func:`look`. known (points, 4): value and
+    plane of a search of more moments (infinite: none); the plane is kept if these moments reach the value there. Scratch:
+    values (points, m), a, b, some (points, steps), peaks (points, SHEARED_STARTS, PEAK).
     """
     ti.loop_config(block_dim=8)
     for row in range(points):
