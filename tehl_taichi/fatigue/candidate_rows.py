@@ -18,34 +18,34 @@ APART = 0.25  # a: least distance between two peaks of the measure
 MOST = 2  # rows for each set of moments
 
 
-def rows(passage, depths, windows, notify=lambda done, total: None):
+def rows(passage, depths, moment_sets, notify=lambda done, total: None):
     """Numbers of the reader's rows through the MOST worst points, for each set of moments.
 
     passage: a :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; depths: (n,) m, of which every DEPTHS-th is
-    measured; windows: sets of moments (slices or arrays of their numbers); notify: called with (done, total) depths.
+    measured; moment_sets: sets of moments (slices or arrays of their numbers); notify: called with (done, total) depths.
     """
-    some, worst = depths[::DEPTHS], [np.zeros((passage.x.size, passage.y.size)) for _ in windows]
+    some, worst = depths[::DEPTHS], [np.zeros((passage.x.size, passage.y.size)) for _ in moment_sets]
     for done, depth in enumerate(some, 1):
-        for n, found in enumerate(_ranges(passage, depth, windows)):
+        for n, found in enumerate(_ranges(passage, depth, moment_sets)):
             worst[n] = np.maximum(worst[n], found * passage.strength.at(depth).share)
         notify(done, len(some))
     return list(dict.fromkeys(row + int(passage.rows.start) for found in worst for row in _peaks(passage, found)))
 
 
-def _ranges(passage, depth, windows):
-    """The measure (windows, x', rows) Pa at a depth (m)."""
+def _ranges(passage, depth, moment_sets):
+    """The measure (moment_sets, x', rows) Pa at a depth (m)."""
     operator, entries = passage.operator(depth), np.unique(passage.entries)[::MOMENTS]
     parts = np.array_split(entries, WORKERS)
     with ThreadPoolExecutor(WORKERS) as pool:
-        lows, highs = zip(*pool.map(lambda part: _extremes(passage, operator, part, windows), parts))
+        lows, highs = zip(*pool.map(lambda part: _extremes(passage, operator, part, moment_sets), parts))
     return 0.5 * (np.maximum.reduce(highs) - np.minimum.reduce(lows)).max(axis=1)
 
 
-def _extremes(passage, operator, entries, windows):
-    """(smallest, largest) shears of these entries and of the unloaded state (0), each (windows, shears, x', rows) Pa."""
-    shape = len(windows), 6, passage.x.size, passage.y.size
+def _extremes(passage, operator, entries, moment_sets):
+    """(smallest, largest) shears of these entries and of the unloaded state (0), each (moment_sets, shears, x', rows) Pa."""
+    shape = len(moment_sets), 6, passage.x.size, passage.y.size
     low, high = np.zeros(shape), np.zeros(shape)
-    counted = [set(np.arange(passage.centres.size + 1)[moments]) for moments in windows]
+    counted = [set(np.arange(passage.centres.size + 1)[moments]) for moments in moment_sets]
     for entry in entries:
         shears = _shears(operator(*passage.loads(int(entry))))
         for moment in np.flatnonzero(passage.entries == entry):

@@ -1,7 +1,7 @@
-"""The worst depth below the surface: under one row of material points, from a ladder of depths and between its rungs.
+"""The worst depth under one row of material points: on a ladder of depths, and between its rungs.
 
-Stresses change smoothly with the logarithm of the depth, so those between the rungs are interpolated (four rungs, cubic) and
-the depth is refined without going back to the loads.
+A rung is one depth of the ladder. Stresses change smoothly with the logarithm of the depth. So the stresses between the rungs
+are interpolated (cubic, four rungs), and the worst depth is refined without new stresses of the loads.
 """
 
 from dataclasses import dataclass
@@ -14,17 +14,17 @@ from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import WorstPoint
 from tehl_taichi.values.interpolation import lagrange
 
-RATIO = 1.5      # of neighbouring depths
-SHALLOWEST = 0.5  # cells: nearer to the surface the rectangles of the loads are seen
-DEEPEST = 0.9    # a: the contact alone is worst at about a half
-HALVINGS = 6     # of the step in log depth, from a rung: 1.5^(1/64), 0.6 %
-CLOSE = 0.9      # points within this of the worst of a rung are followed between the rungs
+RATIO = 1.5      # of the depths of neighbouring rungs
+SHALLOWEST = 0.5  # cells: closer to the surface the stresses show the rectangles of the loads
+DEEPEST = 0.9    # a: the smooth contact is worst at about 0.5 a
+HALVINGS = 6     # of the step in log depth, from one rung: 1.5^(1/64), 0.6 % of the depth
+CLOSE = 0.9      # points above this share of the worst of a rung are searched between the rungs
 
 
 @dataclass(frozen=True)
 class Profile:
-    """Findley stress f (depths, x') Pa at depths (m), the worst point of all depths, the largest von Mises stress
-    (if wanted)."""
+    """Results under one row: value f (depths, x') Pa of the criterion at `depths` (n,) m, the worst point of all depths, the
+    largest von Mises stress (None if the passage does not search it)."""
 
     depths: np.ndarray
     f: np.ndarray
@@ -33,8 +33,10 @@ class Profile:
 
 
 def ladder(passage):
-    """Depths (m) searched, from half a cell to 0.9 a or the deepest of the passage; with a window those of the run and
-    shallower ones."""
+    """Depths (n,) m to search, from half a cell to 0.9 a or to the passage's `deepest`.
+
+    With a fine window: the depths of the run without it, and shallower ones down to half a fine cell.
+    """
     factor = passage.reader.window.factor if has_window(passage.reader) else 1
     first, last = SHALLOWEST * passage.dx * factor, DEEPEST * passage.a
     count = max(5, int(np.ceil(np.log(last / first) / np.log(RATIO))) + 1)
@@ -44,24 +46,29 @@ def ladder(passage):
     return np.concatenate([shallower, depths[depths <= passage.deepest]])
 
 
-def profiles(passage, rows, windows=(slice(None),), notify=lambda done, total: None):
-    """:class:`Profile` of a passage under every one of these rows of its reader, for each of `windows`: moments that count.
+def profiles(passage, rows, moment_sets=(slice(None),), notify=lambda done, total: None):
+    """List of the :class:`Profile` under each row and for each set of moments (all sets of one row are neighbours).
 
-    notify: called with (done, total) parts of the stresses, then of the searches.
+    passage: a :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; rows: numbers of rows of its reader; moment_sets:
+    sets of moments (slices or arrays of their numbers); notify: called with (done, total) parts of the stresses, then of the
+    searches.
     """
     depths, found = ladder(passage), []
     kinds = [(row, False) for row in rows]
     for n, (row, histories) in enumerate(zip(rows, histories_of(passage, depths, kinds, notify)), 1):
-        found += _profiles(passage, depths, histories, windows, row)
+        found += _profiles(passage, depths, histories, moment_sets, row)
         notify(n, len(kinds))
     return found
 
 
-def _profiles(passage, depths, histories, windows, row):
-    """The Profile of each window. Windows of some moments of the first one keep its planes where they have as much there."""
+def _profiles(passage, depths, histories, moment_sets, row):
+    """The Profile of each set of moments.
+
+    A set that is part of the first one keeps the first one's planes where it reaches the same value on them.
+    """
     found, all_, known = [], np.arange(histories.shape[2]), None
-    first = all_[windows[0]]
-    for moments in windows:
+    first = all_[moment_sets[0]]
+    for moments in moment_sets:
         some, fewer = histories[:, :, moments], np.isin(all_[moments], first).all()
         searched = _searched(passage, depths, some, known if fewer else None)
         known = known if found else searched
@@ -70,12 +77,13 @@ def _profiles(passage, depths, histories, windows, row):
 
 
 def _searched(passage, depths, histories, known):
-    """(f, normals) of all points of histories (depths, x', moments, 6) Pa, all at once where they have one kappa; known: see
-    :func:`tehl_taichi.fatigue.findley.search`."""
+    """(f, normals) of all points of histories (depths, x', moments, 6) Pa: one search if all depths have one kappa, else one
+    search per depth. known: see :func:`tehl_taichi.fatigue.findley.search`."""
     kappas, criterion, strength = passage.strength.kappas(depths), passage.scene.fatigue.criterion, passage.strength
     each, points = histories.shape[1], histories.reshape(-1, *histories.shape[2:])
     if len(set(kappas)) == 1:
-        worst = passage.worst and len(set(strength.shares(depths))) == 1  # else another depth may be worse by its limit
+        # the worst point has the largest f only if all depths have one limit
+        worst = passage.worst and len(set(strength.shares(depths))) == 1
         return findley.search(points, kappas[0], criterion=criterion, known=known, worst=worst)
     parts = [slice(n * each, (n + 1) * each) for n in range(len(kappas))]
     found = [findley.search(points[part], kappa, criterion=criterion, known=known and [values[part] for values in known])
@@ -84,11 +92,12 @@ def _searched(passage, depths, histories, known):
 
 
 def of_row(passage, depths, histories, row):
-    """The Profile of histories (depths, x', moments, 6) Pa of the points under a row."""
+    """The Profile of histories (depths, x', moments, 6) Pa under one row (its number) of the reader, for all moments."""
     return _profiles(passage, depths, histories, (slice(None),), row)[0]
 
 
 def _profile(passage, depths, histories, f, row):
+    """The Profile of histories (depths, x', moments, 6) Pa whose values f (depths, x') Pa are known."""
     logs, y, strength = np.log(depths), float(passage.reader.y[row]), passage.strength
 
     def search(stress, depth):
@@ -103,8 +112,8 @@ def _profile(passage, depths, histories, f, row):
 
 
 def _mises(passage, logs, histories, y):
-    """The largest von Mises stress of histories (depths, x', moments, 6) Pa of the points under the row at y (m), beside the
-    yield stress of its depth."""
+    """The VonMisesPeak of histories (depths, x', moments, 6) Pa under the row at y (m): at the depth where the stress is
+    closest to the yield stress."""
     share = von_mises.share_of(passage.strength)
     shares = np.array([share(float(np.exp(log))) for log in logs])[:, None]
     values = np.stack([von_mises.largest(of_depth) for of_depth in histories]) * shares
@@ -118,8 +127,11 @@ def _mises(passage, logs, histories, y):
 
 
 def _refined(strength, logs, histories, values, search):
-    """(depth, point, value, stress, more) of the largest of values (depths, x'), between the rungs too: the step halved around
-    the best. search(stress, depth): of histories (points, moments, 6) what is compared, the values and more of each."""
+    """Refine the depth of the largest of `values` (depths, x') between the rungs, by halving a step in log depth.
+
+    search(stress, depth) returns for histories (points, moments, 6) Pa at a depth (m): the numbers to compare, the values and
+    further results, each (points, ...). Returns (depth, number of the point, value, its history, its further result).
+    """
     best = int(np.argmax(values.max(axis=1)))
     follow = np.flatnonzero(values[best] >= CLOSE * values[best].max())
 
@@ -139,12 +151,14 @@ def _refined(strength, logs, histories, values, search):
 
 
 def _between(strength, logs, histories, log):
-    """Histories (points, moments, 6) at the depth exp(log): the cubic through the four nearest rungs, with the residual stress
-    of that depth."""
+    """Histories (points, moments, 6) Pa at the depth exp(log) m: cubic through the four nearest rungs.
+
+    A residual stress that varies with depth is not interpolated but taken at this depth.
+    """
     first = int(np.clip(np.searchsorted(logs, log) - 2, 0, logs.size - 4))
     weights = lagrange(logs[first : first + 4], log)
     out = np.tensordot(weights, histories[first : first + 4], axes=1)
-    if strength.varies_in_residual:  # its corners are none of a cubic
+    if strength.varies_in_residual:  # a cubic cannot follow its corners
         here, rungs = strength.residual(np.exp(log)), strength.residual(np.exp(logs[first : first + 4]))
         for n, (there, those) in enumerate(zip(here, rungs)):
             out[..., n] += np.dot(weights, there - those + np.zeros(4))

@@ -50,7 +50,7 @@ def search(scene, passage, layers, early, progress):
     """
     rows = _rows(passage, (scene.features[0].y, *(place for found in layers for place in _worst(found))))
     if passes(passage):
-        rows = list(dict.fromkeys(rows + candidate_rows.rows(passage, depth_profile.ladder(passage), _windows(early),
+        rows = list(dict.fromkeys(rows + candidate_rows.rows(passage, depth_profile.ladder(passage), _moment_sets(early),
                                                              progress)))
     profiles, before = _under(passage, rows, early, progress)
     if not passes(passage):
@@ -96,12 +96,12 @@ def _rows(passage, places):
 
 def _under(passage, rows, early, progress):
     """([profiles of the whole passage], [of its early moments])."""
-    windows = _windows(early)
-    found = depth_profile.profiles(passage, rows, windows, progress)
-    return found[:: len(windows)], found[1::2] if len(windows) > 1 else []
+    moment_sets = _moment_sets(early)
+    found = depth_profile.profiles(passage, rows, moment_sets, progress)
+    return found[:: len(moment_sets)], found[1::2] if len(moment_sets) > 1 else []
 
 
-def _windows(early):
+def _moment_sets(early):
     """Groups of moments that are searched separately: all, and the early ones if requested."""
     return [slice(None)] + [early] * (early is not None)
 

@@ -1,4 +1,4 @@
-"""Largest value of a criterion over all planes of stress histories, as Findley's f = tau_amp + kappa * sigma_n,max."""
+"""Search of the plane with the largest value of a criterion, as Findley's f = tau_amp + kappa * sigma_n,max."""
 
 import dataclasses
 import functools
@@ -9,16 +9,16 @@ import numpy as np
 from tehl_taichi.engine.pointwise import unrolled
 from tehl_taichi.laws.criteria import CRITERIA
 
-GRID = 10.0  # degrees between the planes the search begins with
-# halvings of the step: 5 degrees -> 2e-5 rad, error of a smooth maximum about 1e-9; a sum on the plane of the largest shear
-# is not largest there, so it errs by as much as the plane's angle
+GRID = 10.0  # degrees between the first planes of a search
+# halvings of the step of 5 degrees: to 2e-5 rad, error of a smooth maximum about 1e-9. If the shear alone chooses the plane,
+# the value has no maximum there, so its error is of the order of the angle and needs more halvings
 SHRINKS, SHEARED_SHRINKS = 12, 22
-NEAR = 0.85  # of the largest value on the first planes: fewer have points that cannot be the worst (these planes are 3 % low)
-SLICE = 1000  # points of a launch, then progress is reported: 0.7 s of 411 moments on a thread, no slower than all
+NEAR = 0.85  # share of the largest value on the first planes: points below it cannot be the worst (these planes are 3 % low)
+SLICE = 1000  # points of one launch, after which progress is reported: 0.7 s for 411 moments on one thread
 
 
 def planes(degrees=GRID):
-    """Unit normals (m, 3) about evenly spread on the upper hemisphere: 211 at 10 degrees."""
+    """Unit normals (m, 3), about evenly spread over the upper hemisphere; m = 211 at 10 degrees."""
     rows = []
     count = round(90 / degrees)
     for i in range(count + 1):
@@ -32,21 +32,21 @@ def planes(degrees=GRID):
 
 @functools.cache
 def traced(criterion):
-    """The criterion as kernels take it."""
+    """The criterion with a value function that kernels can trace."""
     return dataclasses.replace(criterion, value=unrolled(criterion.value))
 
 
 def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decided=None, notify=None, known=None,
            worst=False):
-    """Largest value of a criterion over all planes, and its plane, of every point.
+    """Find the largest value of a criterion over all planes, and its plane, at every point.
 
-    history (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa >= 0. criterion: one of `tehl_taichi.laws.criteria`.
-    prune=False evaluates every plane (for tests); degrees: between the first planes; decided (points,), if given, takes the
-    number of planes bounded or evaluated at each point; notify: called with (done, total) points; known: (f, normals) of a
-    search of histories that these are some moments of: a value that these moments reach on that plane is the largest here, too;
-    worst: only points near the worst are searched, the others have the value of the best of the first planes, and no normal
-    (nan).
-    Returns f (points,) Pa (may be negative: nowhere near fatigue) and unit normals (points, 3), n_z >= 0.
+    history: (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa: sensitivity of the criterion, >= 0. criterion: a name in
+    `tehl_taichi.laws.criteria`. prune=False: every plane is evaluated (for tests). degrees: angle between the first planes.
+    decided: (points,) array that takes the number of planes bounded or evaluated. notify: called with (done, total) points.
+    known: (f, normals) of a search of histories of which these are some moments; a plane is kept if these moments reach the
+    value there. worst: search only points near the worst; the others get the value of the best first plane and the normal nan.
+
+    Returns f (points,) Pa (negative where pressure outweighs the shear) and unit normals (points, 3) with n_z >= 0.
     Raises ValueError for a history with NaN or of another shape, KeyError for an unknown criterion.
     """
     from tehl_taichi.engine import runtime
@@ -78,8 +78,8 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decide
 
 
 def _found(history, before, kappa, prune, rule, degrees, least=-np.inf, notify=None):
-    """(points, 5): value, plane and number of planes decided, see :func:`tehl_taichi.fatigue.critical_planes.search`; before:
-    what is known."""
+    """(points, 5): value (Pa), plane, number of planes bounded or evaluated; before: `known` of
+    :func:`tehl_taichi.fatigue.critical_planes.search`."""
     from tehl_taichi.fatigue import critical_planes
 
     points, steps, _ = history.shape
@@ -99,20 +99,22 @@ def _found(history, before, kappa, prune, rule, degrees, least=-np.inf, notify=N
 
 
 def prepare(criterion):
-    """See that the kernel of the search is there, which takes a second at its first call."""
+    """Compile the kernel of the search, or load it from the cache, which takes about a second."""
     search(np.zeros((1, 2, 6)), 0.0, criterion=criterion)
 
 
 def normal_stress(history, normals):
-    """(points, times) Pa on the planes with these normals (points, 3)."""
+    """Normal stress (points, times) Pa of a history (points, times, 6) Pa on planes with these normals (points, 3)."""
     x, y, z = normals.T
     weights = np.stack([x * x, y * y, z * z, 2 * x * y, 2 * x * z, 2 * y * z], axis=-1)
     return np.einsum("ptc,pc->pt", history, weights)
 
 
 def shear_path(history, normal):
-    """Stresses on one plane of one point: shear along dip and strike, normal stress, each (times,); history (times, 6) Pa,
-    normal (3,) with n_z >= 0."""
+    """Stresses on one plane at one point: (shear along the dip, shear along the strike, normal stress), each (times,) Pa.
+
+    history: (times, 6) Pa; normal: (3,) with n_z >= 0.
+    """
     xx, yy, zz, xy, xz, yz = history.T
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     vector = np.einsum("ijt,j->it", tensor, normal)
@@ -133,16 +135,17 @@ def smallest_circle(u, v):
 
 
 def angles(normals):
-    """(theta, phi) in degrees: angle of the normal from z (into the body), and its direction in the surface from x.
+    """(theta, phi) of unit normals (points, 3), each (points,) degrees.
 
-    theta is also the angle between the critical plane and the surface.
+    theta: from z (into the body) to the normal, which is also the angle between plane and surface. phi: from x to the normal's
+    direction in the surface.
     """
     theta = np.degrees(np.arccos(np.clip(normals[:, 2], 0.0, 1.0)))
     return theta, np.degrees(np.arctan2(normals[:, 1], normals[:, 0]))
 
 
 def largest_principal(S):
-    """Largest principal stress of S (..., 6): xx, yy, zz, xy, xz, yz (trigonometric form of the cubic's root)."""
+    """Largest principal stress (...) of stresses S (..., 6): xx, yy, zz, xy, xz, yz (trigonometric root of the cubic)."""
     xx, yy, zz, xy, xz, yz = np.moveaxis(S, -1, 0)
     mean = (xx + yy + zz) / 3
     dx, dy, dz = xx - mean, yy - mean, zz - mean

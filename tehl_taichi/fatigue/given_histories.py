@@ -13,8 +13,16 @@ LARGEST = Number("", "Pa", -1e12, 1e12, usual=4e8, least=1e5)
 
 @dataclass(frozen=True)
 class Points:
-    """Results at every point: f (points,) Pa, unit normals (points, 3) of the critical planes (n_z >= 0; nan without one), and
-    the limit (Pa) at which the index is 1.
+    """Fatigue of given stress histories: the result of :func:`tehl_taichi.fatigue` for an array.
+
+    Attributes
+    ----------
+    f : array (points,)
+        Largest value of the criterion, Pa.
+    normals : array (points, 3)
+        Unit normals of the critical planes, n_z >= 0; nan if no plane is ever sheared or pulled.
+    limit : float
+        Value of the criterion at which the index is 1, Pa.
     """
 
     f: np.ndarray
@@ -53,14 +61,16 @@ def are_stresses(of):
 
 
 def _check_size(stresses):
-    """Refuse stresses that make sense only in another unit: any load causes some MPa. Raises SceneError."""
+    """Raise SceneError for stresses that are too small or too large for Pa: any contact load causes some MPa."""
     if stresses.size and np.isfinite(stresses).all():
         LARGEST.check("the largest of the given stresses", float(stresses.flat[np.argmax(np.abs(stresses))]))
 
 
 def search(stresses, constants):
-    """The :class:`Points` of stresses (points, times, 6) or (times, 6), Pa. Raises SceneError for another shape or for values
-    that are no numbers. constants: a scene's :class:`tehl_taichi.scene.sections.Fatigue`.
+    """Search stresses (points, times, 6) or (times, 6), Pa; return the :class:`Points`.
+
+    constants: a scene's :class:`tehl_taichi.scene.sections.Fatigue`. Raises SceneError for another shape or for values that are
+    no numbers.
     """
     try:
         stresses = np.asarray(stresses, float)

@@ -13,7 +13,7 @@ SEEN = 2.0  # times the smallest searched depth, half a cell: nearer to the surf
 
 def weights(passage):
     """Weights (x', rows): number of surface points that each point of the window represents: 0 beside the path of the features,
-    2 on a half domain. If features are smaller than a cell, the whole window counts.
+    2 on a half domain. If features are smaller than a cell, all searched points count.
     """
     inside = np.zeros((passage.x.size, passage.y.size))
     for feature in passage.scene.features:

@@ -1,4 +1,4 @@
-"""All material points at one depth: their stresses, their critical planes, the worst of them."""
+"""Search of all material points at one depth: stresses, critical planes, worst point."""
 
 import functools
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from tehl_taichi.fatigue.worst_point import WorstPoint, over_some, worse
 
 @dataclass(frozen=True)
 class EarlyLayer:
-    """Results of the early moments at one depth: Findley stress f (nx, rows) Pa, and the worst point."""
+    """Results of the early moments at one depth (m): value f (x', rows) Pa of the criterion, and the worst point."""
 
     depth: float
     f: np.ndarray
@@ -21,9 +21,12 @@ class EarlyLayer:
 
 @dataclass(frozen=True)
 class Layer:
-    """Results at one depth: maps (nx, rows), the worst point, the largest von Mises stress (if wanted), and the EarlyLayer of
-    the early moments where it is wanted. cycles: above the limit per passage, nan at points that are not in the sample. Of a
-    passage whose worst point alone is wanted f is as :func:`tehl_taichi.fatigue.findley.search` gives it, sigma1 is nan.
+    """Results at one depth (m).
+
+    Maps (x', rows): f, value of the criterion (Pa); theta, phi, angles of the critical plane (degrees); sigma1, largest
+    principal stress (Pa); cycles above the limit per passage (nan at points outside the sample). worst: the worst point. mises:
+    the largest von Mises stress, or None. early: results of the early moments, or None. If the passage searches its worst point
+    only, f is that of `worst=True` of :func:`tehl_taichi.fatigue.findley.search`, and sigma1 is nan.
     """
 
     depth: float
@@ -38,7 +41,10 @@ class Layer:
 
 
 def layer(scene, passage, depth, progress, early):
-    """Find a Layer: stresses and search of all points at a depth (m). early: moments that are searched apart, or None."""
+    """Compute the stresses of all points at a depth (m) and search them; return the :class:`Layer`.
+
+    progress: called with (done, total); early: numbers of the moments that are also searched alone, or None.
+    """
     parts, worst, peaks, sooner = [], None, [], _Early(scene, passage, depth, early)
     counted = index_statistics.sample(index_statistics.weights(passage)) & (not passage.worst)
     local = passage.strength.at(depth)
@@ -55,7 +61,7 @@ def layer(scene, passage, depth, progress, early):
 
 
 def early_layer(scene, passage, depth, progress, early):
-    """The EarlyLayer of these moments alone at a depth (m)."""
+    """Search only the moments `early` (their numbers) of all points at a depth (m); return the EarlyLayer."""
     sooner = _Early(scene, passage, depth, early)
     for rows, history in _blocks(scene, passage, depth, progress):
         sooner.add(rows, history)
@@ -63,7 +69,7 @@ def early_layer(scene, passage, depth, progress, early):
 
 
 def _blocks(scene, passage, depth, progress):
-    """(rows, stress histories of their points at that depth), block by block."""
+    """Generator of (slice of rows, stress histories (points, moments, 6) Pa at a depth), block by block."""
     histories = (functools.partial(passage.history, operators=passage.stresses(depth), depth=depth) if depth
                  else at_the_surface(passage))
     for rows in passage.row_blocks():
@@ -71,14 +77,14 @@ def _blocks(scene, passage, depth, progress):
 
 
 class _Early:
-    """Gathers the EarlyLayer of the early moments, block by block; early None: there is none."""
+    """Collects the EarlyLayer block by block; does nothing if `early` is None."""
 
     def __init__(self, scene, passage, depth, early):
         self.scene, self.passage, self.depth, self.early = scene, passage, depth, early
         self.parts, self.worst = [], None
 
     def add(self, rows, history, known=None):
-        """Search those moments of a block; known: (f, normals) of all of its moments."""
+        """Search the early moments of a block; known: (f, normals) of all moments of the block."""
         if self.early is None:
             return
         places = self.passage.places(self.depth, rows)
@@ -87,11 +93,12 @@ class _Early:
 
     @property
     def found(self):
+        """The EarlyLayer, or None."""
         return EarlyLayer(self.depth, np.concatenate(self.parts, axis=1), self.worst) if self.parts else None
 
 
 def _cycles(history, normals, counted, local):
-    """Cycles above the limit at the points that are counted, else nan; (points,). local: LocalStrength there."""
+    """Cycles above the limit (points,), nan at points that are not `counted` (bool); local: LocalStrength of the depth."""
     out = np.full(len(history), np.nan)
     for n in np.flatnonzero(counted):
         out[n] = stress_cycles.above(history[n], normals[n], local)

@@ -9,7 +9,7 @@ import numpy as np
 
 from tehl_taichi.fatigue import depth_profile
 
-ROWS = 13  # of the window, at most, under which the index is found at all depths
+ROWS = 13  # of the searched part, at most, under which the index is found at all depths
 AT_ONCE = 3  # rows whose histories are held together
 FINE = 400  # depths between which the index is taken as linear
 
@@ -17,7 +17,7 @@ FINE = 400  # depths between which the index is taken as linear
 def part(passage, surface_f, alone):
     """Part "stressed" of a search's summary.
 
-    surface_f: Findley stress (x', rows of the window) Pa; alone: the :class:`tehl_taichi.fatigue.contact_alone.ContactAlone`.
+    surface_f: Findley stress (x', searched rows) Pa; alone: the :class:`tehl_taichi.fatigue.contact_alone.ContactAlone`.
     Effective sizes: material with index 1 and the same risk.
     """
     m, depths = passage.scene.fatigue.weibull, np.append(0.0, depth_profile.ladder(passage))
@@ -38,12 +38,12 @@ def _equal(name, whole, per_area, area):
 
 
 def _rows(passage):
-    """Numbers of some rows of the window, including the first and the last."""
+    """Numbers of some searched rows, including the first and the last."""
     return np.unique(np.linspace(0, passage.y.size - 1, min(passage.y.size, ROWS)).round().astype(int))
 
 
 def _under(passage, surface_f, rows):
-    """[Findley stress (depths, x') Pa at and below the surface] under each of these rows of the window."""
+    """[Findley stress (depths, x') Pa at and below the surface] under each of these searched rows."""
     out, first = [], int(passage.rows.start)
     for some in np.array_split(rows, -(-rows.size // AT_ONCE)):
         found = depth_profile.profiles(passage, [first + int(row) for row in some])
@@ -67,8 +67,8 @@ def over_area(values, dx, y):
 
 
 def probabilities(found, volume, area):
-    """{"failure_volume", "failure_surface"}: failure probability of the window, if a specimen of this size (m3, m2) survives
-    the limit in half of the cases; for given sizes only.
+    """{"failure_volume", "failure_surface"}: failure probability of the searched part, if a specimen of this size (m3, m2)
+    survives the limit in half of the cases; for given sizes only.
     """
     sizes = {"failure_volume": (found["volume_m3"], volume), "failure_surface": (found["area_m2"], area)}
     return {name: float(-np.expm1(-np.log(2.0) * own / size)) for name, (own, size) in sizes.items() if size}

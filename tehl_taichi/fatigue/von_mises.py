@@ -1,4 +1,4 @@
-"""Von Mises stress of stress histories: where the elastic bodies would yield."""
+"""Von Mises stress of stress histories, and where the elastic bodies would yield."""
 
 from dataclasses import dataclass
 
@@ -7,8 +7,8 @@ import numpy as np
 from tehl_taichi.fatigue import local_strength
 from tehl_taichi.fatigue.stress.workers import pool
 
-POINTS = 16  # whose stresses are found at once
-NUMBERS = 100  # of a history count as one that is transformed
+POINTS = 16  # points of one task
+NUMBERS = 100  # numbers of a history that cost as much as one number of a transform (decides whether threads are used)
 
 
 @dataclass(frozen=True, order=True)
@@ -22,30 +22,32 @@ class VonMisesPeak:
 
 
 def von_mises(stress):
-    """Von Mises stress (...) of stress (..., 6): xx, yy, zz, xy, xz, yz."""
+    """Von Mises stress (...) of stresses (..., 6): xx, yy, zz, xy, xz, yz; same unit."""
     xx, yy, zz, xy, xz, yz = np.moveaxis(stress, -1, 0)
     normal = 0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2)
     return np.sqrt(normal + 3.0 * (xy * xy + xz * xz + yz * yz))
 
 
 def largest(history, of=von_mises):
-    """(points,) Pa: the largest over the moments of histories (points, times, 6); of: stresses (..., 6) to what is compared."""
+    """Largest value over the moments, (points,) Pa, of histories (points, times, 6) Pa; of: function of stresses (..., 6)."""
     parts = np.array_split(history, max(1, -(-len(history) // POINTS)))
     with pool(history.size / NUMBERS) as workers:
         return np.concatenate(list(workers.map(lambda part: of(part).max(axis=1), parts)))
 
 
 def share_of(strength):
-    """Function of a depth (m): by what a von Mises stress there is multiplied to be compared with the yield stress at the
-    surface."""
+    """Function of a depth (m) that returns yield stress at the surface / yield stress there (1 if it does not vary)."""
     if not local_strength.varies_in_yield(strength):
         return lambda depth: 1.0
     return lambda depth: strength.yield_stress(0.0) / strength.yield_stress(depth)
 
 
 def summary(peaks, at_the_surface, surface, strength):
-    """The numbers of one body: of that of `peaks` which is nearest to its yield stress, with that at its surface (Pa), and
-    whether it yields there."""
+    """Summary of one body, {name: number}, for the peak that is closest to the yield stress of its depth.
+
+    peaks: list of VonMisesPeak; at_the_surface: largest von Mises stress at the surface, Pa; surface: the MovingSurface;
+    strength: its Strength.
+    """
     share = share_of(strength)
     top = max(peaks, key=lambda peak: (peak.value * share(peak.depth), peak))
     limit = strength.yield_stress(top.depth)
@@ -54,7 +56,7 @@ def summary(peaks, at_the_surface, surface, strength):
 
 
 def peak(history, places):
-    """The :class:`VonMisesPeak` of histories (points, times, 6); places(n): depth, x and y (m) of one of them."""
+    """The :class:`VonMisesPeak` of histories (points, times, 6) Pa; places(n): (depth, x, y) in m of point n."""
     values = largest(history)
     top = int(np.argmax(values))
     return VonMisesPeak(float(values[top]), *map(float, places(top)))

@@ -1,6 +1,6 @@
 """Memory that run-in needs."""
 
-from tehl_taichi.fatigue.stress.histories import MARGIN, WINDOW
+from tehl_taichi.fatigue.stress.histories import AROUND, MARGIN
 from tehl_taichi.plastic.half_space import PAD, odd_length
 from tehl_taichi.plastic.layers import layers
 from tehl_taichi.scene.run_in import yielding_surfaces
@@ -24,5 +24,5 @@ def needed_bytes(scene):
 def _cells(scene, a, side, axis, most):
     """Number of cells of the region around the features along an axis; it extends as far as the fatigue search."""
     reach = [(getattr(f, axis), f.reach if axis == "x" else f.reach_y) for f in scene.features]
-    low, high = (max(WINDOW * a, *(sign * at + far + MARGIN * a for at, far in reach)) for sign in (-1, 1))
+    low, high = (max(AROUND * a, *(sign * at + far + MARGIN * a for at, far in reach)) for sign in (-1, 1))
     return int(min((low + high) / side + 1, most))

@@ -14,14 +14,14 @@ PHASES = (1, 1, 1, 1, 1j, 1j)  # of the components, beside those of the loads p,
 
 
 class HalfSpaceStress:
-    """Stresses on a uniform half domain, y >= 0 mirrored (p, q_x even in y; q_y odd), or on a whole one.
+    """Operator from loads on a uniform grid to the six stresses at one depth.
 
-    x (nx+1,), y (ny+1,) in m, y[0] = 0; one row of y means plane strain. nu: Poisson's ratio. mirrored=False: nothing acts at y
-    < 0. depth: m below the surface. rows: slice of the rows to compute (default: all). kind: precision of the transforms; the
-    error of single precision is 3e-7 of the largest stress. line=True: p and q_x of the last y row continue to infinity; that
-    part is plane strain (analytic strips), the deviation from it a convolution over the rectangles around the nodes.
-    line=False: nothing acts outside the domain. Raises ValueError for a grid that is not uniform, or a single row without
-    line=True.
+    x (nx+1,), y (ny+1,) in m, y[0] = 0; a single row means plane strain. nu: Poisson's ratio. line=True: p and q_x of the last
+    row continue to infinity; that part is plane strain (analytic strips), the difference from it a convolution over the
+    rectangles around the nodes. line=False: nothing acts outside the domain. mirrored=True: the domain is the half y >= 0 (p,
+    q_x even in y, q_y odd); mirrored=False: nothing acts at y < 0. depth: m below the surface. rows: slice of the rows to
+    compute (default: all). kind: precision of the transforms; the error of single precision is 3e-7 of the largest stress.
+    Raises ValueError for a grid that is not uniform, or a single row without line=True.
     """
 
     def __init__(self, x, y, nu, line=True, mirrored=True, depth=0.0, rows=None, kind=DOUBLE):

@@ -1,9 +1,9 @@
 """Stress histories of material points of a body around a feature, from the snapshots of its passage.
 
-Material points keep their place x' = x - x_i(t) on their surface, whose frame x_i has moved by its pace times the way of the
-first feature's centre: on the surface that carries this, x' is the distance from it, on the other from the place that it meets
-at X = 0. Before the first and after the last snapshot (feature outside the contact) points move through the steady field, so
-every history begins and ends unloaded.
+Material points keep their place x' = x - x_i(t) on their surface. The frame x_i of a surface moves by its pace times the
+distance that the centre of the first feature has moved. On the surface that carries this feature, x' is the distance from it;
+on the other surface, x' is the distance from the point that the feature meets at X = 0. Before the first and after the last
+snapshot (feature outside the contact) the points move through the steady field, so every history begins and ends unloaded.
 """
 
 import functools
@@ -18,32 +18,35 @@ from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.values.interpolation import lagrange
 
-WINDOW = 0.6       # half width (in a) of the part searched around one small feature: farther out its stress has died out
-MARGIN = 0.3       # (in a) searched beyond the rim of larger features
-LOADED = 1.5       # material points are followed while within this distance (in a) of the centre of the contact
-BLOCK_BYTES = 1e9  # histories held at once; more points than fit are done in blocks of y rows, each from the loads again
-WHOLE = 1e-6  # cells
-NODES = range(-2, 4)  # of the interpolation between cells, from the node before the point
+AROUND = 0.6       # half width (in a) of the part searched around one small feature: its stress does not reach farther
+MARGIN = 0.3       # distance (in a) searched beyond the rim of larger features
+LOADED = 1.5       # material points are followed within this distance (in a) of the centre of the contact
+BLOCK_BYTES = 1e9  # memory of the histories held at once; more points are searched in blocks of y rows
+WHOLE = 1e-6  # cells: smaller distances from a node count as zero
+NODES = range(-2, 4)  # nodes of the interpolation between cells, counted from the node before the point
 
 
 class StressHistories:
-    """The window of material points and where they are at every moment that counts (fatigue.from_x to to_x): `positions` of the
-    first feature, `centres` of the frame of the surface (m).
+    """Material points around a feature, and their places at every moment that counts (fatigue.from_x to to_x).
 
-    reader: x, y (m), time (s), len, feature_x(n) (m), fields(n, names) in SI; entry 0 is the steady start; positions (m): the
-    first feature's at every entry; its `searched`, where it has one: {surface: ((x' from, to), (y from, to), (depth from, to))
-    m}, of the points to search; its `worst`: whether the worst of these points is all that is wanted; window: half width (in
-    a) of the part around one small feature; surface: whose points (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`),
-    that of the first feature where nothing else is said.
+    A moment is one position of the feature; an entry is one stored state of the reader. Attributes: `x`, `y`: x' and y of the
+    points, m; `rows`: slice of the reader's rows; for every moment `positions` of the first feature and `centres` of the frame
+    of the surface, m, and `entries`, the number of its entry.
+
+    reader: has x, y (m), time (s), len, feature_x(n) (m) and fields(n, names) (SI); entry 0 is the steady start. It may have
+    `searched`, {surface name: ((x' from, to), (y from, to), (depth from, to)) m} of the points to search, and `worst`, whether
+    only the worst of these points is needed. positions: (entries,) m, of the first feature. around: half width (in a) of the
+    part around one small feature. surface: the :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` whose points these are,
+    by default that of the first feature.
     """
 
-    block = 16  # entries whose stresses are found at once
+    block = 16  # entries whose stresses are computed together
     deepest = np.inf  # depth down to which points are searched, m
-    worst, steel = False, True  # whether the worst point is all that is wanted, and whether von Mises stresses are
-    left = None  # by plastic flow: a :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`
+    worst, steel = False, True  # whether only the worst point is searched, and whether von Mises stresses are
+    left = None  # residual stress by plastic flow: a :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`
 
-    def __init__(self, scene, reader, positions, window=WINDOW, surface=None):
-        self.scene, self.reader, self.window, self.last_below = scene, reader, window, None
+    def __init__(self, scene, reader, positions, around=AROUND, surface=None):
+        self.scene, self.reader, self.around, self.last_below = scene, reader, around, None
         self.surface, self.a = surface or scene.reference, Scales.of(scene).a
         self.strength = Strength(scene.fatigue, self.surface)
         self.loads_of = self._names()
@@ -51,18 +54,17 @@ class StressHistories:
         self.left = getattr(reader, "residual_fields", {}).get(self.surface.name)
         self.path, centres = (float(positions[0]), float(positions[-1])), self.surface.pace * positions
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
-        low, high = (max(1, int(side / self.dx + 1e-9)) for side in self._window("x"))
+        low, high = (max(1, int(side / self.dx + 1e-9)) for side in self._sides("x"))
         # material points on nodes of the grid at entry 0: steps of whole cells then need no interpolation
         offset = (reader.x[0] - centres[0]) / self.dx
         self.x = (np.arange(-low, high + 1) + offset - round(offset)) * self.dx
-        low, high = self._window("y")
+        low, high = self._sides("y")
         rows = np.flatnonzero((reader.y >= -low * (1 + 1e-9)) & (reader.y <= high * (1 + 1e-9)))
         self.rows = slice(rows[0], rows[-1] + 1)
         self.y = reader.y[self.rows]
-        # as long as all of these points need: what is searched of them does not change the history of one
+        # as long as all points need: the history of a point does not depend on the choice of searched points
         before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
         self._keep(getattr(reader, "searched", {}).get(self.surface.name))
-        # centre of the feature and entry of the reader at every moment
         self.centres = np.concatenate([before, centres, after])
         pace = self.surface.pace
         self.positions = np.concatenate([positions[0] + (before - centres[0]) / pace, positions,
@@ -72,7 +74,7 @@ class StressHistories:
         self._choose_moments()
 
     def _keep(self, ends):
-        """Only the points with x', y and depth between these ends, (low, high) m each, those of all where there are none."""
+        """Keep the points with x', y and depth between `ends`, three (low, high) in m; None keeps all."""
         if ends is None:
             return
         (left, right), (low, high), (_, self.deepest) = ends
@@ -82,59 +84,64 @@ class StressHistories:
         self.y = self.reader.y[self.rows]
 
     def _names(self):
-        """Names of p, q_x and q_y of the surface."""
+        """Names of the fields p, q_x and q_y of the surface."""
         return "pressure", *(f"traction_{axis}_{self.surface.name}" for axis in "xy")
 
-    def _window(self, axis):
-        """Distances (m) searched on the negative and the positive side of the frame's origin."""
+    def _sides(self, axis):
+        """Distances (m) searched on the negative and the positive side of the frame's origin, along `axis` ("x" or "y")."""
         reach = [(at, f.reach if axis == "x" else f.reach_y) for f in self.scene.features
                  for at in (self.passed(f) if axis == "x" else (f.y,))]
         sides = (max(sign * at + r for at, r in reach) + MARGIN * self.a for sign in (-1, 1))
         first = self.passed(self.scene.features[0]) if axis == "x" else (0.0,)
-        least = (self.window * self.a + max(0.0, *(sign * at for at in first)) for sign in (-1, 1))
+        least = (self.around * self.a + max(0.0, *(sign * at for at in first)) for sign in (-1, 1))
         return [max(*both) for both in zip(least, sides)]
 
     def passed(self, feature):
-        """Places (m) of this surface that lie under the centre of a feature as it comes into the contact and as it leaves: one
-        step for a feature of its own."""
+        """Places x' (m) of this surface under the centre of a feature when it enters and when it leaves the contact.
+
+        One place for a feature of this surface; none if the feature's surface is at rest.
+        """
         carrier = next(s for s in self.scene.surfaces if s.name == feature.surface)
         if carrier.name == self.surface.name:
             return (feature.x,)
-        if carrier.stands:  # every point passes it in the same way
+        if carrier.stands:  # every point passes the feature in the same way
             return ()
         ends = ((side * self.a - feature.x) / carrier.pace for side in (-1, 1))
         return tuple(feature.x + (carrier.pace - self.surface.pace) * np.clip(at, *self.path) for at in ends)
 
     def _lead_in(self, first):
+        """Centres (m), one cell apart, before the first stored one, beginning where every point is unloaded; none if the first
+        stored one is inside the contact."""
         if self.path[0] > -self.a:
             return np.zeros(0)
         steps = int(np.ceil((first + self.x[-1] + LOADED * self.a) / self.dx))
         return first - np.arange(max(steps, 0), 0, -1) * self.dx
 
     def _lead_out(self, last):
+        """As :meth:`_lead_in`, after the last stored centre."""
         if self.path[1] < self.a:
             return np.zeros(0)
         steps = int(np.ceil((LOADED * self.a - last - self.x[0]) / self.dx))
         return last + np.arange(1, max(steps, 0) + 1) * self.dx
 
     def _widen(self):
-        """Unloaded columns on both sides, so that no material point leaves the grid."""
+        """Set `grid_x`, the grid with unloaded columns (`pad`) on both sides, which no material point leaves."""
         x0, x1 = self.reader.x[0], self.reader.x[-1]
         low, high = self.centres.min() + self.x[0], self.centres.max() + self.x[-1]
         self.pad = tuple(max(0, int(np.ceil(gap / self.dx)) + 2) for gap in (x0 - low, high - x1))
         self.grid_x = x0 + (np.arange(self.reader.x.size + sum(self.pad)) - self.pad[0]) * self.dx
-        # a line contact is mirrored about its first row, in the plane of symmetry or (whole domain) far away
+        # loads of a line contact are mirrored about the first row: the plane of symmetry, or (whole domain) a row far away
         self.line = self.scene.contact.kind == "line"
         self.mirrored = self.line or self.reader.y[0] == 0
 
     def _choose_moments(self):
-        """Only those with the feature between fatigue.from_x and to_x (a)."""
+        """Keep the moments with the feature between fatigue.from_x and to_x (a)."""
         fatigue = self.scene.fatigue
         counts = (self.positions >= fatigue.from_x * self.a) & (self.positions <= fatigue.to_x * self.a)
         self.centres, self.positions, self.entries = self.centres[counts], self.positions[counts], self.entries[counts]
 
     def places(self, depth, rows):
-        """Function of a point's number among those of some rows that gives its depth, x and y (m)."""
+        """Function of the number of a point in these rows (a slice), that returns its (depth, x, y) in m."""
         def place(n):
             i, j = divmod(int(n), rows.stop - rows.start)
             return depth, self.x[i], self.y[j + rows.start]
@@ -142,46 +149,49 @@ class StressHistories:
         return place
 
     def operator(self, depth):
-        """Stress operator for a depth in m, on the rows of the window."""
+        """The HalfSpaceStress at a depth (m), on the rows of the points."""
         y = self.reader.y
         return HalfSpaceStress(self.grid_x, y - y[0], self.surface.body.nu, self.line, self.mirrored, depth, self.rows, SINGLE)
 
     def stresses(self, depth):
-        """Stress operator for a depth in m below the surface, and the thermal stress where the scene wants it (else None)."""
+        """(HalfSpaceStress, function of the thermal stress or None) at a depth (m) below the surface."""
         return self.operator(depth), self.below(depth).at(depth) if self.scene.has_thermal_stress else None
 
     def below(self, depth):
-        """The ThermalBelow of this passage from a depth (m) on: the last one where it reaches up to there, since to make it
-        takes every temperature and its transform."""
+        """The ThermalBelow for depths from `depth` (m) on. The last one is used again if it reaches up to there, since a new
+        one transforms every temperature field."""
         if self.last_below is None or self.last_below.shallowest > depth:
             self.last_below = self.heat(ThermalBelow, depth)
         return self.last_below
 
     def heat(self, kind, *more):
-        """ThermalStress, or ThermalBelow (and its shallowest depth), of this passage."""
+        """The thermal stress of this passage; kind: ThermalStress, or ThermalBelow with its shallowest depth (m)."""
         r = self.reader
         grid = r.x, r.y, self.pad[0], self.grid_x.size
         return self.heat_of(kind, self.rises(r), grid, self.mirrored, self.a, self.surface.speed, *more)
 
     def rises(self, reader):
-        """Temperatures of the surface above ambient, K, at every one of the equal steps of a reader of the passage."""
+        """Generator of the surface temperatures above ambient (nx+1, ny+1) K of a reader, at equal steps in time."""
         name, ambient = f"temperature_{self.surface.name}", self.scene.operation.temperature
         found = (np.asarray(reader.fields(n, (name,))[name], float) - ambient for n in range(len(reader)))
         return between(found, self.ticks)
 
     def heat_of(self, kind, rises, grid, mirrored, a, speed, *more):
-        """ThermalStress or ThermalBelow of these rises (K); grid: x, y (m), and how many columns its x lies behind the first of
-        how many; a (m): over which they fade behind it; speed: of the body in it, m/s."""
+        """The ThermalStress or ThermalBelow (`kind`) of temperature rises (K).
+
+        grid: x, y (m) of the rises, the number of columns before them, and the number of all columns of the stresses. a: length
+        (m) over which the rises fade behind the grid. speed: of the body in this frame, m/s.
+        """
         return kind(self.surface.body, speed, rises, self.tick, *grid, a, mirrored, *more)
 
     @property
     def ticks(self):
-        """Number of each entry among equal steps in time."""
+        """Number of each entry on a series of equal steps in time, (entries,)."""
         return self._steps[0]
 
     @property
     def tick(self):
-        """Length of these steps, s."""
+        """Length of the equal steps, s."""
         return self._steps[1]
 
     @functools.cached_property
@@ -190,19 +200,20 @@ class StressHistories:
 
     @property
     def nodes(self):
-        """Number of the nodes whose loads have stresses."""
+        """Number of nodes with loads."""
         return self.grid_x.size * len(self.reader.y)
 
     def row_blocks(self):
-        """Slices of y rows whose histories fit into BLOCK_BYTES."""
+        """List of slices of rows whose histories fit into BLOCK_BYTES."""
         row_bytes = 8.0 * self.x.size * (self.centres.size + 1) * (len(COMPONENTS) + 2)
         rows = max(1, int(BLOCK_BYTES / row_bytes))
         return [slice(j, min(j + rows, self.y.size)) for j in range(0, self.y.size, rows)]
 
     def history(self, rows, operators, notify=lambda done, total: None, meanwhile=lambda: None, depth=0.0):
-        """(points, times + 1, 6) Pa at a depth (m); points run over x', then rows; the last moment is the unloaded state.
+        """Stress histories (points, moments + 1, 6) Pa at a depth (m) below the surface; the last moment is unloaded.
 
-        operators: of :meth:`stresses` there; notify, meanwhile: as for :meth:`gathered`.
+        rows: slice of the rows of the points; the points of one x' are neighbours. operators: result of :meth:`stresses` at
+        this depth. notify, meanwhile: as for :meth:`gathered`.
         """
         def stresses(block):
             return (self._stress_field(int(entry), rows, *operators) for entry in block)
@@ -214,15 +225,19 @@ class StressHistories:
 
     @property
     def blocks(self):
-        """The entries that count, by their numbers: one has its place in the same block, and so the same bits, whatever moments
-        are searched."""
+        """Arrays of the numbers of the entries that count, in blocks.
+
+        An entry has the same place in its block, and so the same bits, whatever moments are searched.
+        """
         entries = np.unique(self.entries)
         return np.split(entries, np.flatnonzero(np.diff(entries // self.block)) + 1)
 
     def gathered(self, shape, stresses, notify, meanwhile):
-        """Histories (x', *shape, times + 1, 6) Pa from the fields (columns, *shape, 6) that stresses(block) gives of each entry
-        of a block. notify: called with (done, total) blocks; meanwhile: what this thread does while others find the
-        stresses."""
+        """Histories (x', *shape, moments + 1, 6) Pa of the points, all zero at the last moment.
+
+        stresses(block) returns the fields (columns, *shape, 6) Pa of each entry of a block. notify: called with (done, total)
+        blocks. meanwhile: function that this thread runs while other threads compute the stresses.
+        """
         out, blocks = np.zeros((self.x.size, *shape, self.centres.size + 1, len(COMPONENTS))), self.blocks
 
         def fill(block):
@@ -237,8 +252,10 @@ class StressHistories:
         return out
 
     def resting(self, stress, depths, rows):
-        """The stress (x', rows, depths, moments, 6) with the residual one at depths (depths, 1) m under rows of the reader, by
-        their numbers."""
+        """Add the residual stress to `stress` (x', rows, depths, moments, 6) Pa, in place, and return it.
+
+        depths: (depths, 1) m; rows: numbers of rows of the reader.
+        """
         along, across = self.strength.residual(depths)
         stress[..., 0] += along
         stress[..., 1] += across
@@ -247,13 +264,14 @@ class StressHistories:
         return stress
 
     def follow(self, out, fields):
-        """Stress fields {entry: (x, ..., 6)}, at all their moments, into the histories `out` (x', ..., moments, 6): some
-        moments at once, since those of a point are neighbours in memory."""
+        """Write stress fields {entry: (columns, ..., 6)} into the histories `out` (x', ..., moments, 6) at all moments of these
+        entries. Several moments are written together, since those of a point are neighbours in memory."""
         for some in self._neighbours(list(fields)):
             out[..., some[0] : some[-1] + 1, :] = np.stack([self._at(fields[self.entries[t]], t) for t in some], axis=-2)
 
     def followed(self, fields):
-        """(x', moments, 6) of fields (entries, x, 6) of every tick: of few numbers each, so all moments at once."""
+        """Histories (x', moments, 6) of fields (steps, columns, 6) at equal steps in time; all moments at once, for small
+        fields."""
         start = self._start(np.arange(self.centres.size))
         whole = np.where(np.abs(start - np.rint(start)) < WHOLE, np.rint(start), np.floor(start)).astype(int)
         part = np.where(np.abs(start - whole) < WHOLE, 0.0, start - whole)
@@ -264,17 +282,17 @@ class StressHistories:
         return out.swapaxes(0, 1)
 
     def _neighbours(self, entries):
-        """The moments of some entries, as arrays of consecutive ones, no more than a block has entries."""
+        """The moments of some entries, as arrays of consecutive moments with at most `block` each."""
         moments = np.flatnonzero(np.isin(self.entries, entries))
         ends = np.flatnonzero((np.diff(moments) > 1) | (moments[1:] % self.block == 0)) + 1
         return [some for some in np.split(moments, ends) if some.size]
 
     def under(self, fields, t):
-        """Values of fields (x, rows, parts) at the material points at moment t: (parts, x', rows)."""
+        """Values (parts, x', rows) of fields (columns, rows, parts) at the material points at moment t."""
         return np.moveaxis(self._at(fields, t), -1, 0)
 
     def band(self, entry):
-        """Columns (a slice) that the histories take of the stresses of an entry."""
+        """Slice of the columns of an entry's stresses that the histories use."""
         starts = self._start(np.flatnonzero(self.entries == entry))
         if not starts.size:
             return slice(0, 0)
@@ -282,26 +300,28 @@ class StressHistories:
                      min(int(np.ceil(starts.max())) + self.x.size + NODES[-1], self.grid_x.size))
 
     def _start(self, t):
-        """Column of the first material point at moments t."""
+        """Column (with fraction) of the first material point at moments t."""
         return (self.centres[t] + self.x[0] - self.grid_x[0]) / self.dx
 
     def _at(self, fields, t):
+        """Values (x', ...) of fields (columns, ...) at the material points at moment t."""
         return shifted(fields, self._start(t), self.x.size)
 
     def loads(self, entry):
-        """p, q_x and q_y (3, x, y) Pa of an entry; the shear is zero where it is not to count."""
+        """Loads p, q_x, q_y (3, columns, ny+1) Pa of an entry; the shear is zero without `fatigue.shear`."""
         out, front = np.zeros((3, self.grid_x.size, self.reader.y.size)), self.pad[0]
         out[:, front : front + self.reader.x.size] = self.loads_from(self.reader.fields(entry, self.loads_of))
         return out
 
     def loads_from(self, fields):
-        """p, q_x and q_y (3, ...) Pa of fields {name: array}; the shear is zero where it is not to count."""
+        """Loads p, q_x, q_y (3, ...) Pa of fields {name: array}; the shear is zero without `fatigue.shear`."""
         out = np.zeros((3, *np.shape(fields[self.loads_of[0]])))
         for load, name in zip(out, self.loads_of if self.scene.fatigue.shear else self.loads_of[:1]):
             load[...] = fields[name]
         return out
 
     def _stress_field(self, entry, rows, stress, thermal):
+        """Stresses (columns, rows, 6) Pa of an entry."""
         found = stress(*self.loads(entry))
         if thermal:
             for name, values in zip(COMPONENTS, thermal(self.ticks[entry], self.rows)):
@@ -310,7 +330,7 @@ class StressHistories:
 
 
 def equal_steps(times):
-    """(numbers of the times, step) on the coarsest series of equal steps that all of them lie on."""
+    """(numbers (n,), step (s)) of `times` (n,) s on the coarsest series of equal steps that contains all of them."""
     gaps = np.diff(times)
     step, rest = gaps[0], gaps[1:]
     for gap in rest:  # Euclid's algorithm
@@ -322,7 +342,7 @@ def equal_steps(times):
 
 
 def between(fields, ticks):
-    """The fields at every tick from the first to the last, linear in time where there is none."""
+    """Generator of the fields at every tick from the first to the last; linear in time between the given ones."""
     before = None
     for at, field in zip(ticks, fields):
         for n in range(before[0] + 1 if before else at, at):
@@ -333,8 +353,8 @@ def between(fields, ticks):
 
 
 def shifted(fields, start, count):
-    """`count` columns of fields (x, ..., 6) from column `start`; exact for whole numbers, else by the polynomial through six
-    nodes."""
+    """`count` columns of fields (columns, ...) from column `start`: exact for a whole number, else by the polynomial through
+    six nodes."""
     whole = int(np.round(start))
     if abs(start - whole) < WHOLE:
         return fields[whole: whole + count]

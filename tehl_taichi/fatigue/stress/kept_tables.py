@@ -1,16 +1,16 @@
-"""Tables of unit loads that both bodies, pointwise and averaged stresses of a run with windows share."""
+"""Tables of unit loads that a run with windows uses again: for both bodies, for pointwise and averaged stresses."""
 
 BYTES = 1e8
 
 
 class KeptTables:
-    """Arrays by their key, as many as find room."""
+    """Arrays by key, up to BYTES in total; further ones are computed but not kept."""
 
     def __init__(self):
         self.kept, self.room = {}, BYTES
 
     def of(self, key, make):
-        """The array of a key, made by make() where it is not kept."""
+        """The array of a key, computed by make() if it is not kept."""
         found = self.kept.get(key)
         if found is None:
             found = make()

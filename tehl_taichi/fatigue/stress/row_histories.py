@@ -15,8 +15,11 @@ def _no_progress(done, total):
 
 
 def at_the_surface(passage):
-    """Function of rows of the window (a slice), `notify` and `meanwhile` that gives the stress histories of their points at the
-    surface, as :meth:`tehl_taichi.fatigue.stress.histories.StressHistories.history` does those below it."""
+    """Function histories(rows, notify, meanwhile) of the points at the surface of a passage (StressHistories).
+
+    It does at the surface what :meth:`tehl_taichi.fatigue.stress.histories.StressHistories.history` does below it, with the
+    same arguments and result.
+    """
     first, thermal = passage.rows.start, _thermal(passage)
 
     def histories(rows, notify=_no_progress, meanwhile=lambda: None):
@@ -28,26 +31,29 @@ def at_the_surface(passage):
 
 
 def histories_of(passage, depths, kinds, notify=_no_progress):
-    """A list of (depths, x', moments, 6) Pa, one for each kind: (row, whether its loads continue as an endless line), those
-    last.
+    """Stress histories under some rows at some depths: a list with an array (depths, x', moments, 6) Pa for each of `kinds`.
 
-    passage: a :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; depths: m, increasing. The last moment is the
-    unloaded state. notify: called with (done, total): blocks of entries, and depths where there is heat.
+    passage: a :class:`tehl_taichi.fatigue.stress.histories.StressHistories`. depths: (n,) m, increasing. kinds: list of (number
+    of a row, whether its loads continue along y for ever), the latter ones last. notify: called with (done, total) blocks of
+    entries, and depths if the scene has thermal stress. The last moment is unloaded.
     """
     thermal = None if depths[0] else _thermal(passage)
     return list(_histories(passage, depths, kinds, notify, thermal).transpose(1, 2, 0, 3, 4))
 
 
 def _thermal(passage):
-    """Its ThermalStress, where the scene wants it."""
+    """The ThermalStress at the surface of a passage, or None without thermal stress."""
     if not passage.scene.has_thermal_stress:
         return None
     return _windowed_heat().on_the_surface(passage) if has_window(passage.reader) else passage.heat(ThermalStress)
 
 
 def _histories(passage, depths, kinds, notify, thermal, meanwhile=lambda: None):
-    """(x', kinds, depths, moments, 6) Pa; thermal: that of the surface, if it is among the depths; meanwhile: what this thread
-    does while others find stresses."""
+    """Histories (x', kinds, depths, moments, 6) Pa; arguments as for :func:`histories_of`.
+
+    thermal: the ThermalStress if one of the depths is the surface; meanwhile: function that this thread runs while others
+    compute the stresses.
+    """
     deep = [n for n, depth in enumerate(depths) if depth] if passage.scene.has_thermal_stress else []
     blocks, stresses = len(passage.blocks), _Stresses(passage, depths, kinds, thermal)
     out = passage.gathered((len(kinds), len(depths)), stresses, lambda done, _: notify(done, blocks + len(deep)), meanwhile)
@@ -63,14 +69,14 @@ def _windowed_heat():
 
 
 class _Stresses:
-    """Stresses of some entries of a passage, with the heat of points at the surface; arguments as for :func:`_histories`."""
+    """Stresses of the entries of a passage, with the thermal stress at the surface; arguments as for :func:`_histories`."""
 
     def __init__(self, passage, depths, kinds, thermal):
         self.passage, self.of_loads = passage, _of_loads(passage, depths, kinds)
         self.heat = thermal.on([row for row, _ in kinds]) if thermal else None
 
     def __call__(self, block):
-        """(entries, columns, kinds, depths, 6) Pa of entries that have a place in one block."""
+        """Stresses (entries, columns, kinds, depths, 6) Pa of the entries of one block."""
         out = self.of_loads(block)
         for fields, tick in zip(out, self.passage.ticks[block] if self.heat else []):
             fields[:, :, 0][..., HELD] += self.heat(tick)
@@ -78,7 +84,7 @@ class _Stresses:
 
 
 def _of_loads(passage, depths, kinds):
-    """Function of a block that gives the stresses of its loads alone."""
+    """Function of a block of entries that returns the stresses of their loads, without heat."""
     if not has_window(passage.reader):
         return _LoadStresses(passage, depths, kinds)
     from tehl_taichi.fatigue.stress.windowed import WindowedStresses
@@ -87,7 +93,7 @@ def _of_loads(passage, depths, kinds):
 
 
 class _LoadStresses:
-    """Stresses of the loads of some entries, on the grid of a passage; arguments as for :func:`_histories`."""
+    """Stresses of the loads of the entries of a passage, on its grid; arguments as for :func:`_histories`."""
 
     def __init__(self, passage, depths, kinds):
         self.passage, self.operators = passage, _operators(passage, depths, kinds)
@@ -103,12 +109,12 @@ class _LoadStresses:
 
 
 def _kind(passage):
-    """Precision: a single row is plane strain alone, and quick."""
+    """Precision of the transforms: double for a single row, where it costs little."""
     return SINGLE if passage.reader.y.size > 1 else DOUBLE
 
 
 def _operators(passage, depths, kinds):
-    """[(RowStress, rows of loads that it takes)]: one of all loads for all rows, one of each row whose loads continue."""
+    """List of (RowStress, rows of the loads it takes): one for all rows, and one for each row whose loads continue along y."""
     def made(y, rows):
         return RowStress(passage.grid_x, y, passage.surface.body.nu, passage.line, passage.mirrored, depths, rows,
                          _kind(passage))
@@ -120,8 +126,10 @@ def _operators(passage, depths, kinds):
 
 
 def _heat(passage, depths, deep, rows, out, notify):
-    """Thermal stress below the surface added to the histories `out` (x', kinds, depths, moments, 6); deep: numbers of the
-    depths there; notify: called with those done."""
+    """Add the thermal stress below the surface to the histories `out` (x', kinds, depths, moments, 6) Pa.
+
+    deep: numbers of the depths below the surface; notify: called with the number of depths done.
+    """
     first = min(depths[n] for n in deep)
     thermal = _windowed_heat().below(passage, first) if has_window(passage.reader) else passage.below(first)
     with pool(passage.nodes) as workers:

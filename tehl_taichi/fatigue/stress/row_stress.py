@@ -1,11 +1,11 @@
-"""Stresses on some rows of a surface at many depths: rows of the half-space convolution instead of all of them.
+"""Stresses under some rows of a surface at many depths: a few rows of the half-space convolution, not all of them.
 
-The same rectangles and strips as :mod:`tehl_taichi.fatigue.stress.half_space`, so the same numbers to rounding; per row and
-depth a fiftieth of the work on 64 rows, since only transforms along x are left and each wave is a product of matrices.
+Rectangles and strips are those of :mod:`tehl_taichi.fatigue.stress.half_space`, so results are equal to rounding. Only
+transforms along x are needed, and each wave is a product of matrices: on 64 rows a fiftieth of the work per row and depth.
 
-Along x the stress of a rectangle is even or odd, its transform real or imaginary, and with i q_x in place of q_x all loads go
-with real numbers into a component, and i times them into sxy and sxz: half the work of complex matrices. Across it is even or
-odd too, so that one quarter of the plane around a rectangle is enough.
+Symmetry halves the work. Along x the stress of a rectangle is even or odd, so its transform is real or imaginary. With i q_x in
+place of q_x, all matrices are real (for sxy and sxz after division by i). Along y the stress is even or odd too, so one quarter
+of the plane around a rectangle is enough.
 """
 
 import itertools
@@ -18,15 +18,15 @@ from tehl_taichi.fatigue.stress.strip_stress import StripStress
 from tehl_taichi.fatigue.stress.unit_loads import ACROSS, CARRIED, HELD, SIGNS, TURNED, along, unit_load, wrapped
 from tehl_taichi.fatigue.stress.workers import pool
 
-STEPS = 16  # rows across by which tables grow, so that operators of neighbouring rows take the same ones
+STEPS = 16  # tables have a multiple of so many rows, so that operators of neighbouring rows share them
 
 
 class RowStress:
-    """Six components at `depths` (m, 0: the surface) under `rows` of a grid, from p, q_x and q_y on all its rows.
+    """Operator from p, q_x, q_y on all rows of a grid to the six stresses at `depths` (m, 0: the surface) under `rows`.
 
     x, y, nu, line, mirrored, kind: as for :class:`tehl_taichi.fatigue.stress.half_space.HalfSpaceStress`; mirrored rows begin
-    at y = 0. Of the surface alone three components are found, the others are its loads. tables:
-    :class:`tehl_taichi.fatigue.stress.kept_tables.KeptTables` of operators that are made again for other rows, or None.
+    at y = 0. rows: their numbers. tables: :class:`tehl_taichi.fatigue.stress.kept_tables.KeptTables` that operators for other
+    rows share, or None. If the surface is the only depth, three components are computed; the others are the loads themselves.
     """
 
     def __init__(self, x, y, nu, line, mirrored, depths, rows, kind=DOUBLE, tables=None):
@@ -38,7 +38,7 @@ class RowStress:
         self.rows = self._rows(lags, mirrored) if self.y.size > 1 else None
 
     def __call__(self, p, qx, qy):
-        """(entries, nx+1, rows, depths, 6) Pa from loads (entries, nx+1, ny+1) Pa."""
+        """Stresses (entries, nx+1, rows, depths, 6) Pa from loads (entries, nx+1, ny+1) Pa."""
         far = [load[..., -1] if self.line else 0.0 * load[..., -1] for load in (p, qx)]
         if self.rows is None:
             return self.strips(*far)[:, :, None]
@@ -48,7 +48,7 @@ class RowStress:
         return self._whole(found, (p, qx, qy))
 
     def _whole(self, found, loads):
-        """All six components; those that the surface carries are its loads."""
+        """Six components from the computed ones `found`; at the surface szz, sxz and syz are minus the loads."""
         if len(self.found) == 6:
             return found
         out = np.empty((*found.shape[:-1], 6), found.dtype)
@@ -58,8 +58,11 @@ class RowStress:
         return out
 
     def _waves(self, entries, far):
-        """(waves, real and imaginary part, entries, loads of all rows) of p, i q_x, q_y, less those (entries, nx+1, 2) that
-        continue. One entry at once, whose numbers stay in the cache, along x as neighbours in memory."""
+        """Spectra (waves, real and imaginary part, entries, loads of all rows) of p, i q_x, q_y.
+
+        far: (entries, nx+1, 2), the parts of p and q_x that continue along y for ever; they are subtracted. One entry at a time
+        stays in the cache, and neighbours along x are neighbours in memory.
+        """
         out = np.empty((self.size // 2 + 1, 2, len(far), 3 * self.y.size), real_of(self.kind))
         shear = slice(self.y.size, 2 * self.y.size)
         for n, (p, qx, qy) in enumerate(entries):
@@ -70,8 +73,8 @@ class RowStress:
         return out
 
     def _carried(self, parts):
-        """(entries, nx+1, rows, depths, components) from the loads as :meth:`_waves` gives them. Back one entry at once and
-        along neighbours, too: of 324 waves of 4 rows and 12 depths 14 ms instead of 44."""
+        """Stresses (entries, nx+1, rows, depths, components) from the spectra of :meth:`_waves`. Transforms back are made for
+        one entry at a time, along neighbours in memory: 14 ms instead of 44 for 324 waves, 4 rows and 12 depths."""
         waves, _, entries, loads = parts.shape
         parts = (parts.reshape(waves, -1, loads) @ self.rows).reshape(waves, 2, entries, -1)
         turned = np.flatnonzero(np.tile(np.isin(self.found, TURNED), parts.shape[-1] // len(self.found)))
@@ -84,7 +87,7 @@ class RowStress:
         return out.reshape(entries, self.n, len(self.rows_used), -1, len(self.found))
 
     def _rows(self, lags, mirrored):
-        """(waves, loads of all rows, rows depths components): what unit loads answer."""
+        """Matrices (waves, loads of all rows, rows depths components): transforms of the stresses by unit loads."""
         shape = self.size // 2 + 1, 3, self.y.size, len(self.rows_used), len(self.depths), len(self.found)
         out = np.empty(shape, real_of(self.kind))
 
@@ -97,7 +100,8 @@ class RowStress:
         return out.reshape(shape[0], 3 * self.y.size, -1)
 
     def _rectangles(self, lags, load, depth, mirrored):
-        """(waves, rows, rows wanted, components), real: from a unit load on one rectangle of each row and its image."""
+        """Real transforms (waves, rows of the load, rows of the stress, components): unit load on one rectangle of each row,
+        and on its mirror image."""
         count, sign, across = self.y.size, SIGNS[load], (ACROSS * SIGNS[load])[self.found]
         reach = max(self.rows_used) + count
         table = self._table(lags, load, depth, reach)
@@ -112,7 +116,7 @@ class RowStress:
         return out
 
     def _table(self, lags, load, depth, reach):
-        """(waves, steps across, components), real, of a unit load on one rectangle; at `reach` steps."""
+        """Real transforms (waves, reach, components) of a unit load on one rectangle, at distances of 0 to reach - 1 rows."""
         def made(steps):
             across = np.arange(steps) * spacing(self.y)
             return self._transformed(unit_load(load, lags[:, None], across, depth, self._sides), load)
@@ -124,10 +128,11 @@ class RowStress:
 
     @property
     def _sides(self):
+        """Half sides of a rectangle (m, m), and nu."""
         return spacing(self.x) / 2, spacing(self.y) / 2, self.nu
 
     def _transformed(self, values, load):
-        """(waves, steps across, components), real, of the stresses (6, lags, steps) of a load."""
+        """Real transforms (waves, steps across, components) of the stresses (6, lags, steps across) of a unit load."""
         signs, out = along(load), np.empty((self.size // 2 + 1, values.shape[2], len(self.found)), real_of(self.kind))
         for n, component in enumerate(self.found):
             spectrum = half(wrapped(values[component], self.size, signs[component]), self.size, 0, DOUBLE)

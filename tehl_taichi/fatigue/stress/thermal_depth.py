@@ -20,16 +20,16 @@ from tehl_taichi.fatigue.stress.thermal_stress import SurfaceHeat, depth_after, 
 from tehl_taichi.fatigue.stress.wave_table import WaveTable
 from tehl_taichi.fatigue.stress.workers import WORKERS, pool
 
-LEAD = 4.0  # a: the contact stands at its first state for this way of the body, which is cold before
-REACH = 9.0  # waves with k z beyond this do not reach the depth z (exp(-9) = 1e-4)
-WEAK = 1e-4  # waves below this share (`weak`) of the strongest are left out
-CHUNK = 256  # waves convolved at once
-PARTS = np.array([0, 1 / 64, 1 / 16, 1 / 4, 1])  # of the newest step: near the surface the answer to it is quick
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(3)  # of the means over an age
+LEAD = 4.0  # a: distance that the body moves through the first state of the contact; before, it is cold
+REACH = 9.0  # waves with k z above this do not reach the depth z (exp(-9) = 1e-4)
+WEAK = 1e-4  # waves below this share of the strongest are left out
+CHUNK = 256  # waves convolved together
+PARTS = np.array([0, 1 / 64, 1 / 16, 1 / 4, 1])  # of the newest step: near the surface the stress follows it quickly
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(3)  # Gauss rule for means over a part of a step
 
 
 def step_stresses(k, z, diffusivity, nu, t):
-    """(ss, tt, zz, sz/(i k)) over E alpha T/(1 - nu) at depth z (m) a time t (s) after a sudden surface temperature
+    """(ss, tt, zz, sz/(i k)), each over E alpha T/(1 - nu), at depth z (m) and a time t (s) after a sudden surface temperature
     T exp(i k s); k (1/m) and t broadcast; zero at t = 0."""
     late, k0 = np.where(t > 0, t, 1.0), np.where(k > 0, k, 1.0)
     r2 = diffusivity * late
@@ -49,11 +49,12 @@ def step_stresses(k, z, diffusivity, nu, t):
 
 
 class ThermalBelow(SurfaceHeat):
-    """The six stresses (Pa) at depths of a body, at every entry of a passage: :meth:`rows` on some rows, :meth:`at` on all.
+    """The six thermal stresses (Pa) below the surface of a body, at every step: :meth:`rows` on some rows, :meth:`at` on all.
 
-    Arguments as for :class:`tehl_taichi.fatigue.stress.thermal_stress.ThermalStress`; shallowest: depth (m) of the first layer
-    wanted, waves that do not reach it are left out. The body was cold until the contact had come `lead` (a) near, and has had
-    the state of entry 0 since. Holds one complex number of single precision per entry (with the way before) and wave number.
+    Arguments as for :class:`tehl_taichi.fatigue.stress.thermal_stress.ThermalStress`. shallowest: smallest depth (m); waves
+    that do not reach it are left out. lead: distance (a) that the body, cold before, moves through the first state. weak: waves
+    below this share of the strongest are left out. Memory: one complex number of single precision per step (those of the lead
+    included) and wave number.
     """
 
     def __init__(self, body, speed, rises, dt, x, y, front, columns, a, mirrored, shallowest, lead=LEAD, weak=WEAK):
@@ -75,21 +76,24 @@ class ThermalBelow(SurfaceHeat):
         self.means = [_means(self._angle[:, None], *ends) for ends in zip(PARTS[:-1], PARTS[1:])]
 
     def _passed(self, waves):
-        """Transform in time of the temperatures in the frame of the body, before which the contact moves on."""
+        """Transform in time (waves, size) of the temperatures in the frame of the body; waves: (waves, steps)."""
         n = np.concatenate([np.zeros(self.lead, int), np.arange(self.entries)])
         turn = np.exp(1j * np.outer(self._angle, np.arange(n.size))).astype(np.complex64)
         return transform(waves[:, n] * turn, self.size)
 
     @property
     def _angle(self):
-        """Phase by which each wave moves over the body in a step, rad."""
+        """Phase (waves,) rad by which each wave moves over the body in a step."""
         return self.kx * self.speed * self.dt
 
     def _responses(self, depth, each=map):
-        """(cut, (answers (waves, 6, size), newest (waves, 2, 4))) of some waves, those of one kx together: transforms in time
-        (without their way back) of ss, tt, zz, sz by all but the newest step, of the temperature before that step, and of the
-        one at its end; what the latter two add to ss, tt, zz, sz within that step. each: applies a function to the items of a
-        list."""
+        """Generator of (numbers of some waves, (answers (waves, 6, size), newest (waves, 2, 4))) for the waves that reach a
+        depth.
+
+        answers: transforms in time of ss, tt, zz, sz by all steps but the newest one, of the temperature before the newest
+        step, and of the temperature at its end. newest: contributions of these two temperatures to ss, tt, zz, sz. each:
+        function that maps a function over a list.
+        """
         reached = np.flatnonzero(self.k * depth < REACH)
         reached = reached[np.argsort(self.k[reached], kind="stable")]  # waves of one cut take few rows of the table
         cuts = [np.sort(reached[start : start + CHUNK]) for start in range(0, reached.size, CHUNK)]
@@ -99,8 +103,8 @@ class ThermalBelow(SurfaceHeat):
             yield from zip(some, each(lambda cut: self._answers_of(table, cut), some))
 
     def _answers_of(self, table, cut):
-        """Answers and newest of :meth:`_responses`. Temperatures are linear over a step in the frame of the contact; within the
-        newest one the parts PARTS of it count by their age."""
+        """(answers, newest) of :meth:`_responses` for the waves `cut`. Temperatures are linear over a step in the frame of the
+        contact; the newest step is divided at PARTS."""
         kernels, newest = table(self.k[cut])
         out = np.empty((cut.size, 6, self.size), np.complex64)  # each wave's six in one piece, as :meth:`rows` takes them
         for n, kernel in enumerate(kernels):
@@ -110,8 +114,11 @@ class ThermalBelow(SurfaceHeat):
         return out, np.stack(shares).transpose(2, 0, 1)
 
     def _answers(self, k, depth):
-        """Stresses of waves k (n,) from a temperature that changes by 1: (4, n, size), the transform in time of what each step
-        adds after the newest, and (4, n, parts), what the parts of that one add."""
+        """Stresses ss, tt, zz, sz of waves k (n,) 1/m by a unit rise of temperature.
+
+        Returns the transforms in time (4, n, size) of the response after the newest step, and the response (4, n, parts) to the
+        parts of the newest step.
+        """
         count, k = self.lead + self.entries, k[:, None]
         stress = step_stresses(k, depth, self.diffusivity, self.nu, np.append(np.arange(count), PARTS) * self.dt)
         stress[3] *= k
@@ -120,7 +127,7 @@ class ThermalBelow(SurfaceHeat):
         return transform(reach, self.size), np.diff(stress[..., count:], axis=2).astype(np.float32)
 
     def _turns(self, cut):
-        """(waves, 4, 6): what ss, tt, zz, sz of waves add to xx, yy, zz, xy, xz, yz."""
+        """Matrices (waves, 4, 6) from ss, tt, zz, sz to xx, yy, zz, xy, xz, yz."""
         k = np.where(self.k[cut] > 0, self.k[cut], 1.0)
         cos, sin = np.where(self.k[cut] > 0, self.kx[cut] / k, 1.0), np.where(self.k[cut] > 0, self.ky[cut] / k, 0.0)
         none, one = 0 * cos, 1 + 0 * cos
@@ -129,12 +136,13 @@ class ThermalBelow(SurfaceHeat):
         return np.array(turns).transpose(2, 0, 1).astype(np.complex64)
 
     def _back(self, spectra, kx):
-        """Entries of transforms in time (..., waves or kx, size), in the frame of the contact again."""
+        """Values (..., waves, steps) of transforms in time (..., waves, size), back in the frame of the contact; kx:
+        (waves,)."""
         back = np.exp(-1j * np.outer(kx * self.speed * self.dt, np.arange(self.lead, self.lead + self.entries)))
         return transform_back(spectra)[..., self.lead : self.lead + self.entries] * back.astype(np.complex64)
 
     def rows(self, depth, rows):
-        """(rows, entries, columns, 6) Pa at `depth` on some rows."""
+        """Stresses (rows, steps, columns, 6) Pa at `depth` (m) on some rows (their numbers)."""
         w, columns = self.waves, int(self.ix.max()) + 1
         out = np.zeros((columns, len(rows) * 6, self.size), np.complex64)
         both = np.array([[w.row_weights(row, odd)[self.iy] for odd in (False, True)] for row in rows])
@@ -151,8 +159,8 @@ class ThermalBelow(SurfaceHeat):
         return self.stiffness / w.nx * half_back(spectra, w.nx, 2)[:, :, : self.columns].transpose(0, 3, 2, 1)
 
     def at(self, depth):
-        """Function of the entry (and of the rows that are wanted) that gives sxx, syy, szz, sxy, sxz, syz, each (columns,
-        ny+1), at `depth`."""
+        """Function of the number of a step (and a slice of rows) that returns sxx, syy, szz, sxy, sxz, syz at `depth` (m), each
+        (columns, rows) Pa."""
         w, held = self.waves, np.zeros((6, self.k.size, self.entries), np.complex64)
         with pool(w.k.size) as workers:
             for cut, (parts, newest) in self._responses(depth, workers.map):
@@ -174,7 +182,7 @@ ODD = (False, False, False, True, False, True)  # about the first row of a mirro
 
 
 def _with_newest(turns, newest):
-    """(waves, 6, 6): turns (waves, 4, 6), and those of the newest step (waves, 2, 4)."""
+    """Matrices (waves, 6, 6): `turns` (waves, 4, 6), and their product with `newest` (waves, 2, 4)."""
     return np.concatenate([turns, newest @ turns], axis=1)
 
 
@@ -184,8 +192,8 @@ def _rows_of(array):
 
 
 def _means(angle, low, high):
-    """Means over the ages from low to high (of a step) of what is left of the temperature before the step, and of the one at
-    its end, in the phase of its end: (waves, 1)."""
+    """Mean weights of the temperature before a step and of the one at its end, over the ages from low to high (shares of the
+    step), each (waves, 1), in the phase of the end."""
     age = low + (high - low) * (NODES + 1) / 2
     turn = np.exp(-1j * angle * age) * WEIGHTS / 2
     found = (age * turn).sum(axis=1, keepdims=True) * np.exp(1j * angle), ((1 - age) * turn).sum(axis=1, keepdims=True)

@@ -32,7 +32,7 @@ def erfcx(x):
 
 
 def depth_after(k, diffusivity, t):
-    """Theta/T a time t after a sudden surface temperature, m: int_0^t of the kernel; k in 1/m, all arrays."""
+    """Theta/T (m) at a time t (s) after a sudden rise of the surface temperature; k (1/m), diffusivity (m2/s), t broadcast."""
     x = k * np.sqrt(diffusivity * t)
     small = x < 1e-6
     fade, safe = np.exp(-x * x), np.where(small, 1.0, k)
@@ -42,21 +42,21 @@ def depth_after(k, diffusivity, t):
 
 
 def steady_depth(kx, k, diffusivity, speed):
-    """Theta/T, m, of temperatures that stand still above a surface moving at `speed`; k = 0: 0 (it has no gradient)."""
+    """Theta/T (m) of temperatures at rest above a surface that moves at `speed` (m/s); 0 for k = 0, which has no gradient."""
     root = np.sqrt(1j * kx * speed + diffusivity * k * k) + k * math.sqrt(diffusivity)
     return np.where(k > 0, math.sqrt(diffusivity) / np.where(k > 0, root, 1.0), 0.0)
 
 
 def fast_length(n):
-    """The next length of which a transform is quick."""
+    """The next length >= n with a fast transform."""
     from tehl_taichi.engine.fftw import pyfftw
 
     return pyfftw.next_fast_len(n)
 
 
 class WaveNumbers(Waves):
-    """Waves of fields on `columns` x `rows` nodes and their numbers kx, ky, k (1/m): even about the first row (mirrored), or
-    padded with zeros."""
+    """Waves of fields on `columns` x `rows` nodes, with their wave numbers kx, ky, k (1/m); fields are even about the first row
+    (mirrored) or padded with zeros."""
 
     def __init__(self, columns, rows, dx, dy, mirrored):
         ny = 1 if rows == 1 else 2 * (rows - 1) if mirrored else fast_length(2 * rows)
@@ -67,7 +67,7 @@ class WaveNumbers(Waves):
         self.k = np.hypot(self.kx, self.ky)
 
     def row_weights(self, row, odd=False):
-        """(modes of y,): their sum with a spectrum is its row `row`, still a spectrum along x."""
+        """Weights (modes of y,) whose product with a spectrum is the spectrum along x of the field's row `row`."""
         turn = np.exp(2j * np.pi * np.arange(self.ny) * row / self.ny) / self.ny
         if not self.mirrored or self.rows == 1:
             return turn
@@ -76,7 +76,7 @@ class WaveNumbers(Waves):
 
 
 class SurfaceHeat:
-    """A body and the temperatures that pass over its surface; arguments: see :class:`ThermalStress`."""
+    """A body and the temperatures that pass over its surface; arguments as for :class:`ThermalStress`."""
 
     def __init__(self, body, rises, x, y, front, columns, a, mirrored):
         self.stiffness, self.nu, self.front = body.E * body.alpha / (1 - body.nu), body.nu, front
@@ -88,7 +88,7 @@ class SurfaceHeat:
         self.rises = [np.asarray(rise, np.float32) for rise in rises]
 
     def _extended(self, rise):
-        """Temperature rise on the wide grid; it fades out behind the last column."""
+        """Temperature rise on the wide grid (columns, rows) K, which fades to 0 behind the last column."""
         out = np.zeros((self.waves.columns, rise.shape[1]), rise.dtype)
         end = self.front + rise.shape[0]
         out[self.front : end] = rise
@@ -97,7 +97,7 @@ class SurfaceHeat:
         return out
 
     def spectra(self, since=0.0):
-        """(entries, nx//2+1, modes) of all rises, less `since`."""
+        """Spectra (entries, nx//2+1, modes) of all rises less the field `since` (K)."""
         out = np.empty((len(self.rises), *self.waves.k.shape), np.complex64)
 
         def put(n):
@@ -109,11 +109,12 @@ class SurfaceHeat:
 
 
 class ThermalStress(SurfaceHeat):
-    """sigma_xx, sigma_yy, sigma_xy (Pa) at the surface of `body`, which moves at `speed` (m/s), at every entry of a passage.
+    """sigma_xx, sigma_yy, sigma_xy (Pa) at the surface of `body`, which moves at `speed` (m/s), at every step of a passage.
 
-    rises: entries of the temperature above ambient, (nx+1, ny+1) K, an iterable; entry 0 is the steady state in which the
-    contact has been for ever, the others follow at distances dt (s). columns: of the grid that stresses are wanted on, the
-    rises standing `front` columns behind its first. Holds one complex number of single precision per entry and wave number.
+    rises: iterable of temperatures above ambient (nx+1, ny+1) K, dt (s) apart; before the first one the contact is in its
+    steady state. x, y: nodes of the rises, m. columns: number of columns of the stresses; the first column of the rises is
+    number `front` of them. a: length (m) over which rises fade behind the grid. mirrored: rows begin at a mirror. Memory: one
+    complex number of single precision per step and wave number.
     """
 
     def __init__(self, body, speed, rises, dt, x, y, front, columns, a, mirrored):
@@ -126,7 +127,7 @@ class ThermalStress(SurfaceHeat):
         self.strength = (2 * self.stiffness / np.where(w.k > 0, w.k, 1.0)).astype(np.float32)
 
     def on(self, rows):
-        """Function of an entry (its number) that gives sxx, syy, sxy on these rows, (columns, rows, 3)."""
+        """Function of the number of a step that returns sxx, syy, sxy (columns, rows, 3) Pa on these rows."""
         w, rows, nu, kx = self.waves, list(rows), self.nu, self.waves.kx.astype(np.float32)
         even, odd = (np.stack([w.row_weights(row, odd) for row in rows], axis=1) for odd in (False, True))
         weights = np.concatenate([even, w.ky.T**2 * even, w.ky.T * odd], axis=1).astype(np.complex64)
@@ -142,8 +143,11 @@ class ThermalStress(SurfaceHeat):
 
 
 def _convolved(changes, waves, diffusivity, speed, dt):
-    """Theta of the changes against the steady state, (entries, ...): a sum over the past in the frame of the body, linear in
-    time between the entries (their mean over a step)."""
+    """Theta (steps, ...) of the changes against the steady state, in place of their spectra `changes`.
+
+    It is a convolution over the past, in the frame of the body; temperatures are linear in time over a step (their mean
+    counts).
+    """
     entries, shape = changes.shape[0], waves.k.shape
     k, along = waves.k.ravel(), np.repeat(np.arange(shape[0]), shape[1])
     flat, size = changes.reshape(entries, -1), fast_length(2 * entries)
@@ -165,6 +169,6 @@ def _convolved(changes, waves, diffusivity, speed, dt):
 
 
 def _reach(k, diffusivity, dt, entries, size):
-    """(1, waves, size): transform in time of what each step of the temperature adds to Theta after it."""
+    """(1, waves, size): transform in time of the response of Theta to a unit temperature that lasts one step."""
     deep = depth_after(k[:, None], diffusivity, np.arange(entries) * dt)
     return transform(np.diff(deep, axis=1, append=deep[:, -1:]), size)[None]

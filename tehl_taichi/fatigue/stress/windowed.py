@@ -1,10 +1,12 @@
-"""Stresses of a run with a fine window: those of the run on its own grid, and what the window changes near it.
+"""Stresses of a run with a fine window: the stresses of the run on its own grid, and their change by the window.
 
-The loads are those of the run outside of the window and the window's inside, and the half-space is linear. So the stresses of
-the run's loads are found on its grid and interpolated; to them come, at the nodes of the window, those of its loads less those
-of the part of the run's loads that they replace, each on a grid of the window's size. What is sharp inside the window in the
-run cancels, and nothing is computed on a fine grid of the whole contact. Temperatures differ from the run's by little: their
-stresses are those of the run and of that difference.
+Inside the window its loads replace the loads of the run. The half-space is linear, so the stresses are a sum of two parts:
+
+* the stresses of the run's loads, computed on the grid of the run and interpolated;
+* at the nodes of the window, the stresses of its loads less the stresses of the replaced loads of the run. Both are computed on
+  grids of the window's size. Details of the run's loads inside the window cancel.
+
+So no stress is computed on a fine grid of the whole contact. Temperatures are treated likewise (`windowed_heat`).
 """
 
 from dataclasses import dataclass
@@ -16,16 +18,19 @@ from tehl_taichi.fatigue.stress.row_stress import RowStress
 from tehl_taichi.fatigue.stress.unit_loads import ACROSS
 from tehl_taichi.values.refining import matrix
 
-POINTS = 6  # of the polynomials between the nodes of the run
-MARGIN = 3  # cells of the run beside the window, so that they have nodes on both sides
-BESIDE = 16  # a multiple of so many columns lies beside the grid of the run: windows of any factor have the same
+POINTS = 6  # nodes of the polynomials between the nodes of the run
+MARGIN = 3  # cells of the run around the window, so that these polynomials have nodes on both sides
+BESIDE = 16  # the grid is extended by a multiple of so many columns, so that windows of all factors share it
 
 
 @dataclass(frozen=True)
 class Inside:
-    """A window at one moment: number of its first fine column, its weight (columns, rows) of the core, its loads with that
-    weight, and those of the run with it at the nodes of the run from MARGIN cells before the window on: {name: (columns,
-    rows)} Pa."""
+    """A window at one entry of the reader.
+
+    column: number of its first fine column. core: (columns, rows), weight of the window's values, 1 inside and 0 at its rim.
+    fine, coarse: {name: (columns, rows) Pa}, loads times this weight: of the window at its nodes, and of the run at the run's
+    nodes, which begin MARGIN cells before the window.
+    """
 
     column: int
     core: np.ndarray
@@ -35,7 +40,10 @@ class Inside:
 
 @dataclass(frozen=True)
 class Extent:
-    """A window that moves along x: cells of it to one of the run, its columns and rows of nodes and its first fine row."""
+    """Size of a window that moves along x.
+
+    factor: fine cells per cell of the run; columns, rows: numbers of fine nodes; row: number of its first fine row.
+    """
 
     factor: int
     columns: int
@@ -44,29 +52,29 @@ class Extent:
 
     @property
     def coarse_columns(self):
-        """Columns of nodes of the run round the window."""
+        """Number of columns of the run around the window."""
         return (self.columns - 1) // self.factor + 2 + 2 * MARGIN
 
     @property
     def coarse_rows(self):
-        """(first, number) of the rows of the run round it; one of a line."""
+        """(first, number) of the rows of the run around the window; (0, 1) for a single row."""
         if self.rows == 1:
             return 0, 1
         first = max(self.row // self.factor - MARGIN, 0)
         return first, -(-(self.row + self.rows - 1) // self.factor) + MARGIN + 1 - first
 
     def coarse_column(self, column):
-        """Number of the first node of the run round a window that begins at this fine column."""
+        """Number of the first column of the run around a window that begins at this fine column."""
         return column // self.factor - MARGIN
 
 
 class WindowedStresses:
-    """Stresses of the loads of some entries of a passage, as those without a window
-    (:mod:`tehl_taichi.fatigue.stress.row_histories`).
+    """Stresses of the loads of the entries of a passage whose reader has a window; used by
+    :mod:`tehl_taichi.fatigue.stress.row_histories`.
 
-    passage: StressHistories of a reader with a `window` (:class:`Extent`), `base` (the reader of the run alone) and
-    `inside(entry, names)`, the Inside of that moment or None. depths: m, increasing; rows: of the reader, by their numbers;
-    kind: precision.
+    passage: StressHistories of a reader with `window` (:class:`Extent`), `base` (reader of the run without the window) and
+    `inside(entry, names)`, which returns the :class:`Inside` or None. depths: (n,) m, increasing; rows: numbers of fine rows of
+    the reader; kind: precision of the transforms.
     """
 
     def __init__(self, passage, depths, rows, kind):
@@ -74,14 +82,15 @@ class WindowedStresses:
         self.base, self.window = BasePart(passage, depths, rows, kind), WindowPart(passage, depths, rows, kind)
 
     def __call__(self, block):
-        """(entries, columns, rows, depths, 6) Pa of entries that have a place in one block."""
+        """Stresses (entries, columns, rows, depths, 6) Pa of the entries of one block."""
         out = self.base(block)
         self.window.add(out, block)
         return out
 
 
 class BasePart:
-    """Stresses of the run's own loads at the fine columns of a passage and these of its rows."""
+    """Stresses of the run's loads, interpolated to the fine columns and some fine rows; arguments:
+    :class:`WindowedStresses`."""
 
     def __init__(self, passage, depths, rows, kind):
         self.reader, self.passage, self.kind = passage.reader.base, passage, kind
@@ -90,7 +99,7 @@ class BasePart:
                                   kind, passage.reader.tables)
 
     def __call__(self, block):
-        """As :meth:`WindowedStresses.__call__`."""
+        """See :meth:`WindowedStresses.__call__`."""
         b, size = self.between, self.passage.block
         loads = np.zeros((3, size, b.x.size, len(self.reader.y)), real_of(self.kind))
         for entry in block:
@@ -100,7 +109,7 @@ class BasePart:
 
 
 class WindowPart:
-    """What the window adds to them."""
+    """Change of the stresses by the window; arguments: :class:`WindowedStresses`."""
 
     def __init__(self, passage, depths, rows, kind):
         reader, self.passage, self.kind = passage.reader, passage, kind
@@ -121,7 +130,7 @@ class WindowPart:
             self.coarse = operator(w.coarse_columns, *w.coarse_rows, w.factor, self.odd.rows)
 
     def add(self, out, block):
-        """To stresses `out` (entries, columns, rows, depths, 6) of a block."""
+        """Add the change to the stresses `out` (entries, columns, rows, depths, 6) Pa of a block."""
         found = {int(entry): inside for entry in block if (inside := self._inside(int(entry)))} if self.within.size else {}
         if not found:
             return
@@ -135,13 +144,14 @@ class WindowPart:
         return self.passage.reader.inside(entry, self.passage.loads_of)
 
     def _stresses(self, found, part, operator):
-        """(entries of a block, columns, rows, depths, 6) of the loads of one part."""
+        """Stresses (entries of a block, columns, rows, depths, 6) Pa of the loads of one part, "fine" or "coarse"."""
         loads = np.zeros((3, self.passage.block, operator.x.size, operator.y.size), real_of(self.kind))
         for entry, inside in found.items():
             loads[:, entry % self.passage.block] = self.passage.loads_from(getattr(inside, part))
         return operator(*loads)
 
     def _put(self, out, inside, fine, coarse):
+        """Add fine less interpolated coarse stresses to the stresses `out` (columns, rows, depths, 6) of one entry."""
         w, first = self.extent, inside.column
         offset = first - w.coarse_column(first) * w.factor
         change = fine - self.odd.refined(coarse, slice(offset, offset + w.columns))
@@ -150,7 +160,11 @@ class WindowPart:
 
 
 class Folded:
-    """From rows of the run, and their columns, to fine ones; rows: numbers of those that the fine ones need."""
+    """Interpolation from columns and rows of the run to fine ones.
+
+    factor: fine cells per cell of the run; coarse_rows: (first, number) of the rows of the run; rows: numbers of the fine rows;
+    count: number of rows of the run's grid. Attribute `rows`: numbers of the run's rows that are needed.
+    """
 
     def __init__(self, factor, coarse_rows, rows, count, mirrored):
         first, there = coarse_rows
@@ -163,8 +177,10 @@ class Folded:
         self.across = [weights[:, self.rows].astype(np.float32) for weights in whole]
 
     def refined(self, field, columns, components=ACROSS):
-        """(fine columns, fine rows, ..., components) of a field (columns, rows, ..., components) at the rows `rows`; columns:
-        those that are wanted of all fine ones between its own; components: signs of each about the plane of symmetry."""
+        """Field (fine columns, fine rows, ..., components) from a field (columns, rows, ..., components) at the rows `rows`.
+
+        columns: slice of the fine columns to compute; components: sign of each component in the mirror image about y = 0.
+        """
         wide = self.along(field, columns)
         out = np.empty((len(wide), len(self.across[0]), *field.shape[2:]), field.dtype)
         for sign, across in zip((1, -1), self.across):
@@ -173,13 +189,15 @@ class Folded:
         return out
 
     def along(self, field, columns):
-        """(fine columns, ...) of a field (columns, ...)."""
+        """Field (fine columns, ...) from a field (columns, ...), at a slice of fine columns."""
         return np.tensordot(matrix(self.factor, len(field), POINTS)[columns].astype(field.dtype), field, 1)
 
 
 class RunNodes:
-    """Nodes of the run from which stresses at the fine columns of a passage and some of its rows are interpolated: x (m), of
-    which the first `front` lie before its grid, and numbers of its rows."""
+    """Nodes of the run for the interpolation to the fine columns of a passage and some of its fine rows.
+
+    Attributes: `x` (m), whose first `front` columns lie before the run's grid; `rows`, numbers of the run's rows.
+    """
 
     def __init__(self, passage, rows):
         reader, factor = passage.reader, passage.reader.window.factor
@@ -191,15 +209,18 @@ class RunNodes:
 
     @property
     def rows(self):
+        """Numbers of the rows of the run."""
         return list(self.folded.rows)
 
     def refined(self, fields, bands, components=ACROSS):
-        """(entries, fine columns, fine rows, ..., components) of fields (entries, columns, rows, ..., components), in a band
-        (slice) of columns of each, else 0."""
+        """Fields (entries, fine columns, fine rows, ..., components) from (entries, columns, rows, ..., components).
+
+        bands: for each entry the slice of fine columns to compute; other columns are 0.
+        """
         return self._filled(fields, bands, lambda field, columns: self.folded.refined(field, columns, components))
 
     def refined_along(self, fields, bands):
-        """(entries, fine columns, ...) of fields (entries, columns, ...), likewise."""
+        """Fields (entries, fine columns, ...) from (entries, columns, ...); bands as for :meth:`refined`."""
         return self._filled(fields, bands, self.folded.along)
 
     def _filled(self, fields, bands, refined):
@@ -211,5 +232,5 @@ class RunNodes:
 
 
 def is_mirrored(reader):
-    """Whether its rows are those of one half of a contact that has its mirror on the other side."""
+    """Whether the rows of a reader are one half of a contact, mirrored about y = 0."""
     return len(reader.y) > 1 and reader.y[0] == 0

@@ -1,4 +1,4 @@
-"""Thermal stresses of a run with a fine window: those of the run's temperatures, and of what the window adds to them."""
+"""Thermal stresses of a run with a fine window: of the run's temperatures, and of the difference that the window makes."""
 
 import functools
 
@@ -10,24 +10,27 @@ from tehl_taichi.fatigue.stress.thermal_stress import ThermalStress
 from tehl_taichi.fatigue.stress.unit_loads import ACROSS, HELD
 from tehl_taichi.fatigue.stress.windowed import RunNodes, is_mirrored
 
-ROOM = 1.5  # times the rows of a window in front of its mirror image: rows beyond it, for what lies across
+ROOM = 1.5  # rows of the grid per row of a window that begins at the mirror: space for stresses beside the window
 WEAK = 1e-3  # waves of the difference below this share of the strongest are left out
-SIDE = max(NODES) + 1  # columns beside a field that interpolation between its columns takes
+SIDE = max(NODES) + 1  # columns on each side of a field that the interpolation between its columns needs
 
 
 class WindowedHeat:
-    """As ThermalStress or ThermalBelow, of the body of a passage (StressHistories) whose reader has a window: as of
-    :class:`tehl_taichi.fatigue.stress.windowed.WindowedStresses`, and with `difference(entry, name)`, (first fine column,
-    (columns, rows) K of the window less the run) or None. kind, of_change: makes that of the run, of the difference."""
+    """Thermal stress of the body of a passage whose reader has a window; used like ThermalStress or ThermalBelow.
+
+    passage: StressHistories; its reader is as for :class:`tehl_taichi.fatigue.stress.windowed.WindowedStresses` and has
+    `difference(entry, name)`, which returns (first fine column, (columns, rows) K of the window less the run) or None. kind,
+    of_change: functions that make the thermal stress of the run and of the difference.
+    """
 
     @classmethod
     def on_the_surface(cls, passage):
-        """Stresses at the surface: :meth:`on`."""
+        """Make the thermal stress at the surface, for :meth:`on`."""
         return cls(passage, ThermalStress, ThermalStress)
 
     @classmethod
     def below(cls, passage, shallowest):
-        """Stresses below it, from the depth `shallowest` (m) on: :meth:`rows`."""
+        """Make the thermal stress below the surface, from the depth `shallowest` (m) on, for :meth:`rows`."""
         kind = functools.partial(ThermalBelow, shallowest=shallowest)
         return cls(passage, kind, functools.partial(kind, lead=0.0, weak=WEAK))
 
@@ -41,13 +44,13 @@ class WindowedHeat:
 
     @functools.cached_property
     def base(self):
-        """Heat of the run alone."""
+        """Thermal stress of the run without the window."""
         run, nodes, passage = self.reader.base, self.nodes, self.passage
         grid = run.x, run.y, nodes.front, nodes.x.size
         return passage.heat_of(self.kind, passage.rises(run), grid, passage.mirrored, passage.a, passage.surface.speed)
 
     def on(self, rows):
-        """Function of a tick (one of the equal steps) that gives sxx, syy, sxy on these rows, (columns, rows, 3) Pa."""
+        """Function of a tick (number of an equal step) that returns sxx, syy, sxy (columns, rows, 3) Pa on these fine rows."""
         nodes, places, own = RunNodes(self.passage, np.asarray(rows)), *self._within(rows)
         run, window = self.base.on(nodes.rows), self.own.on(own) if self.own and own else None
 
@@ -60,7 +63,7 @@ class WindowedHeat:
         return stresses
 
     def rows(self, depth, rows):
-        """(rows, entries, columns, 6) Pa at `depth` on some rows."""
+        """Stresses (rows, ticks, columns, 6) Pa at `depth` (m) on some fine rows."""
         places, own = self._within(rows)
         between_rows = self._run_rows(depth, rows)
         bands = [self._band(tick) for tick in range(between_rows.shape[1])]
@@ -71,11 +74,15 @@ class WindowedHeat:
         return np.moveaxis(out, 2, 0)
 
     def _band(self, tick):
-        """Columns that the histories take of the entry at a tick; none where there is none."""
+        """Slice of the columns that the histories use of the entry at a tick; empty if no entry is at this tick."""
         return self.passage.band(self.entries.get(int(tick), -1))
 
     def _run_rows(self, depth, rows):
-        """(rows, entries, columns of the run, 6) Pa, kept for windows of other factors: waves have values between rows, too."""
+        """Stresses (rows, ticks, columns of the run, 6) Pa of the run at a depth on fine rows, kept for windows of other
+        factors.
+
+        Waves have values between the run's rows, so no interpolation along y is needed.
+        """
         places = np.asarray(rows) / self.reader.window.factor
         kept, nodes = self.reader.kept_heat, self.nodes
         keys = [(self.passage.surface.name, self.reader.averaged, float(depth), float(place), nodes.front, nodes.x.size)
@@ -85,12 +92,13 @@ class WindowedHeat:
         return np.stack([kept[key] for key in keys])
 
     def _within(self, rows):
-        """(places among `rows`, rows of the window) of those that lie in it."""
+        """(places in `rows`, numbers in the window) of the fine rows that lie in the window."""
         w, rows = self.reader.window, np.asarray(rows)
         places = np.flatnonzero((rows >= w.row) & (rows < w.row + w.rows))
         return places, list(rows[places] - w.row)
 
     def _of_window(self, kind, found):
+        """Thermal stress of the differences `found` of all entries, in the frame of the window."""
         frame = self.frame
         ticks = self.passage.ticks[frame.first :]
         rises = between((frame.rise(one, tick) for one, tick in zip(found[frame.first :], ticks)), ticks - frame.begin)
@@ -99,10 +107,10 @@ class WindowedHeat:
 
 
 class WindowFrame:
-    """Columns that move with a window, `x` and `y` (m), wide enough for it at every tick (one of the equal steps) from `begin`
-    on, that of the last entry before it; `first`: this entry; speed: of the body in them, m/s.
+    """Grid that moves with a window and contains it at every tick (number of an equal step).
 
-    found: of all entries (first fine column, (columns, rows)) of the window, or None.
+    found: for every entry (first fine column, (columns, rows) K) of the window, or None without one. Attributes: `x`, `y` (m);
+    `first`, the last entry before the window, and `begin`, its tick; `speed` of the body in this frame, m/s.
     """
 
     def __init__(self, passage, found):
@@ -119,7 +127,8 @@ class WindowFrame:
         self.x, self.y = np.arange(size) * dx, self._rows(reader)
 
     def rise(self, one, tick):
-        """Difference of temperatures, (columns, rows) K, of an entry's (first fine column, values) or None."""
+        """Difference of temperatures (columns, rows) K on this grid; one: (first fine column, values) of the window, or
+        None."""
         out = np.zeros((self.x.size, self.y.size), np.float32)
         if one is not None:
             at = one[0] - self._left(tick)
@@ -130,8 +139,10 @@ class WindowFrame:
         return out
 
     def add(self, out, places, own, tick):
-        """To stresses `out` (columns of the passage, rows, ...) at these places among the rows, those of the window's columns
-        at a tick."""
+        """Add stresses `own` on this grid at a tick to the stresses `out` (columns of the passage, rows, ...).
+
+        places: numbers of the rows of `out`.
+        """
         first = int(np.ceil(self._left(tick) - 1e-6)) + SIDE
         pad = self.passage.pad[0]
         low, high = max(first, -pad), min(first + len(own) - 2 * SIDE, len(out) - pad)
@@ -139,11 +150,12 @@ class WindowFrame:
             out[pad + low : pad + high, places] += shifted(own, low - self._left(tick), high - low)
 
     def _left(self, tick):
-        """Fine column of the grid at which the first of these lies."""
+        """Fine column (with fraction) of the passage at which this grid begins."""
         return self.left + self.way * tick
 
     @staticmethod
     def _rows(reader):
+        """y (m) of the rows: those of the window, and at a mirror ROOM times as many."""
         w, y = reader.window, np.asarray(reader.y)
         if w.rows == 1:
             return y

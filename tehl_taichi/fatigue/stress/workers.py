@@ -1,17 +1,17 @@
-"""Threads of a fatigue pass: transforms and products of matrices run outside the interpreter's lock."""
+"""Threads of a fatigue search: transforms and matrix products release the interpreter's lock."""
 
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 
 from tehl_taichi.engine import cores
 
 WORKERS = min(4, cores.available())
-# Numbers of one field from which on threads are worth it; below, they wait for each other's lock. Search of both bodies, s, on
-# 64x16 and 32x8 cells together: 3.6 with two threads, 3.1 without; on 128x32 cells 8.1 and 9.7
+# numbers of a field from which threads pay; with less they wait for the lock. Search of both bodies with two threads and
+# without: 3.6 and 3.1 s on 64x16 and 32x8 cells together, 8.1 and 9.7 s on 128x32 cells
 WORTH = 4000
 
 
 class AtOnce(Executor):
-    """Does in this thread what is submitted."""
+    """Executor that runs tasks in the calling thread."""
 
     def submit(self, function, /, *args, **options):
         done: Future = Future()
@@ -20,5 +20,5 @@ class AtOnce(Executor):
 
 
 def pool(numbers):
-    """Executor of tasks on fields of so many numbers each."""
+    """Executor for tasks on fields of so many numbers: threads from WORTH on."""
     return ThreadPoolExecutor(WORKERS) if numbers >= WORTH else AtOnce()
