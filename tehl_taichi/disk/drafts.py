@@ -66,7 +66,7 @@ class Draft:
         self.lock = self._locked()
         for leftover in self.folder.iterdir():
             if leftover.name != LOCK:
-                _remove(leftover)
+                remove_whole(leftover)
         if os.path.lexists(self.path) and not self.replaces:  # it came while we looked
             raise Busy(exists(self.path))
 
@@ -195,7 +195,7 @@ def remove(folder, lock):
     try:
         for child in sorted(folder.iterdir(), key=lambda one: one.name == ROOT):
             if child.name != LOCK:
-                _remove(child)
+                remove_whole(child)
         lock.moved(folder)
         lock.release()
         folder.rmdir()
@@ -203,7 +203,8 @@ def remove(folder, lock):
         lock.file.close()
 
 
-def _remove(path):
+def remove_whole(path):
+    """Remove a file, a link, or a folder with all in it. Raises OSError."""
     shutil.rmtree(path) if is_folder(path) else path.unlink()
 
 

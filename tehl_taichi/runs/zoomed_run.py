@@ -92,7 +92,7 @@ def corrected(saved, found, searches, passage, domain):
              *(coarse_runs.passage_readings(saved.scene, level.reader, level.reader.scalar, level.searches) for level in found)]
     changed = {name for name, reading in grids[-1].items()
                if name not in grids[0] or reading.value != grids[0][name].value}
-    sizes, reasons = bars(grids)
+    sizes, reasons = bars(grids, passing=True)
     sizes, reasons = ({name: one for name, one in part.items() if name in changed} for part in (sizes, reasons))
     if found[-1].passage.entries[:1] > [1]:
         sizes = _with_early(sizes, passage.get("passage_parts", {}))

@@ -1,6 +1,12 @@
 """Arrays of a store, and the file that lists the entries visible to a reader."""
 
+import functools
 import json
+import math
+from typing import Any
+
+import numpy as np
+import zarr
 
 from tehl_taichi.disk import files
 from tehl_taichi.march.step_output import fields_of, scalars_of
@@ -8,20 +14,20 @@ from tehl_taichi.store import chunks
 from tehl_taichi.store.integrity import ROOT
 
 # series of the snapshot itself: (dtype, units, text, what is not written yet, how they stand for several steps)
-OWN = {"step": ("i8", "1", "step number", -1, ""), "time": ("f8", "s", "time since the steady start", float("nan"), ""),
-       "feature_x": ("f8", "m", "centre of the first feature", float("nan"), "point")}
+OWN = {"step": ("i8", "1", "step number", -1, ""), "time": ("f8", "s", "time since the steady start", math.nan, ""),
+       "feature_x": ("f8", "m", "centre of the first feature", math.nan, "point")}
 
 
-def lay_out(group, capacity, scene, snapshot):
+def lay_out(folder, capacity, scene, snapshot):
     """Create the arrays for `capacity` entries: coordinates, every output of the scene, series of the snapshot."""
-    _coordinates(group, snapshot)
-    _fields(group, capacity, scene, snapshot)
-    _series(group, capacity, scene)
+    _coordinates(folder, snapshot)
+    _fields(folder, capacity, scene, snapshot)
+    _series(folder, capacity, scene)
 
 
-def metadata(path):
-    """Metadata of every array of the group, by name."""
-    return {file.parent.name: files.json_of(file) for file in sorted(path.glob("*/zarr.json"))}
+def metadata(path, name="*"):
+    """Metadata of every array of the group, or of one, by name."""
+    return {file.parent.name: files.json_of(file) for file in sorted(path.glob(f"{name}/{ROOT}"))}
 
 
 def publish(path, attrs, arrays):
@@ -34,35 +40,53 @@ def publish(path, attrs, arrays):
     files.replace(path / ROOT, json.dumps(root).encode())
 
 
-def array(group, name, shape, chunk, dtype, dims, units, long_name, fill, between="/", **attrs):
-    """Create an array in the group; between: separator of the numbers of a chunk in its file name."""
-    return group.create_array(name, shape=shape, chunks=chunk, dtype=dtype, dimension_names=dims, fill_value=fill,
-                              compressors=chunks.codecs(), chunk_key_encoding={"name": "default", "separator": between},
-                              attributes={"units": units, "long_name": long_name, **attrs})
+def array(folder, name, shape, chunk, dtype, dims, units, long_name, fill, between="/", **attrs):
+    """Create an array of the group in `folder`; between: separator of the numbers of a chunk in its file name."""
+    attributes = json.dumps({"units": units, "long_name": long_name, **attrs})
+    (folder / name).mkdir()
+    files.write(folder / name / ROOT, _described(tuple(shape), tuple(chunk), dtype, tuple(dims), fill, between, attributes))
 
 
-def _coordinates(group, snapshot):
+def whole(folder, name, values, dims, units, long_name, fill=0.0, **attrs):
+    """Create an array of one chunk with its values, f4 or else f8."""
+    kind = "f4" if np.asarray(values).dtype == np.float32 else "f8"
+    values = np.asarray(values, kind)
+    array(folder, name, values.shape, values.shape, kind, dims, units, long_name, fill, **attrs)
+    chunk = folder / name / "/".join(["c", *("0" * values.ndim)])
+    chunk.parent.mkdir(parents=True)
+    files.write(chunk, chunks.compressed(values, "<" + kind))
+
+
+@functools.lru_cache(maxsize=1000)
+def _described(shape, chunk, dtype, dims, fill, between, attributes):
+    """Content of the metadata file of an array. Kept: zarr takes 2 ms for it, and the stores of a study have the same ones."""
+    made: dict[str, Any] = {}
+    zarr.create_array(made, shape=shape, chunks=chunk, dtype=dtype, dimension_names=dims, fill_value=fill,
+                      compressors=chunks.codecs(), chunk_key_encoding={"name": "default", "separator": between},
+                      attributes=json.loads(attributes))
+    return made[ROOT].to_bytes()
+
+
+def _coordinates(folder, snapshot):
     for name, values, text in (("x", snapshot.x, "along rolling"), ("y", snapshot.y, "across")):
-        made = array(group, name, values.shape, values.shape, "f8", [name], "m", text, 0.0)
-        made[:] = values
+        whole(folder, name, values, [name], "m", text)
     if "temperature" in snapshot.fields:
         from tehl_taichi.heat.chebyshev import chebyshev
 
         zeta = chebyshev(snapshot.fields["temperature"].shape[2])[0]
-        made = array(group, "zeta", zeta.shape, zeta.shape, "f8", ["zeta"], "1", "z/h from surface a to surface b", 0.0)
-        made[:] = zeta
+        whole(folder, "zeta", zeta, ["zeta"], "1", "z/h from surface a to surface b")
 
 
-def _fields(group, capacity, scene, snapshot):
+def _fields(folder, capacity, scene, snapshot):
     for name, field in fields_of(scene).items():
-        shape, fill = snapshot.fields[name].shape, 0 if field.dtype == "u1" else float("nan")
+        shape, fill = snapshot.fields[name].shape, 0 if field.dtype == "u1" else math.nan
         # files without folders: three a field would be made at every step
-        array(group, name, (capacity, *shape), (1, *shape), field.dtype, ["time", *field.dims], field.unit, field.says, fill,
+        array(folder, name, (capacity, *shape), (1, *shape), field.dtype, ["time", *field.dims], field.unit, field.says, fill,
               between=".")
 
 
-def _series(group, capacity, scene):
-    numbers = {name: ("f8", scalar.unit, scalar.says, float("nan"), scalar.over) for name, scalar in scalars_of(scene).items()}
+def _series(folder, capacity, scene):
+    numbers = {name: ("f8", scalar.unit, scalar.says, math.nan, scalar.over) for name, scalar in scalars_of(scene).items()}
     for name, (dtype, units, text, fill, over) in {**numbers, **OWN}.items():
         folded = {"cell_methods": f"time: {over}"} if over and scene.output.every > 1 else {}
-        array(group, name, (capacity,), (capacity,), dtype, ["time"], units, text, fill, **folded)
+        array(folder, name, (capacity,), (capacity,), dtype, ["time"], units, text, fill, **folded)

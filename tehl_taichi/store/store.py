@@ -9,13 +9,15 @@ chunk and checkpoint has a checksum.
 
 import contextlib
 import json
+import math
+import os
 from pathlib import Path
 
 import numpy as np
-import zarr
 
 from tehl_taichi import __version__
 from tehl_taichi.disk import files
+from tehl_taichi.disk.drafts import remove_whole
 from tehl_taichi.disk.files import reason
 from tehl_taichi.disk.locked_folder import LockedFolder, locked_folder
 from tehl_taichi.errors import Error, Interrupted
@@ -59,9 +61,8 @@ class Store(LockedFolder, Reader):
     @classmethod
     def _create(cls, place, scene, snapshot, capacity, attrs):
         """A store without entries, which readers do not see yet."""
-        group = zarr.open_group(str(place.folder), mode="a", zarr_format=3)
-        layout.lay_out(group, capacity, scene, snapshot)
-        stored_maps.write(group, scene)
+        layout.lay_out(place.folder, capacity, scene, snapshot)
+        stored_maps.write(place.folder, scene)
         (place.folder / CHECKPOINTS).mkdir()
         attrs = {"Conventions": "CF-1.10", "format": FORMAT, "version": __version__, "scene": json.dumps(scene.to_dict()),
                  "scene_toml": scene_file.dumps(scene), **attrs, "outputs": json.dumps(names()), "steps": 0, "finished": False}
@@ -163,15 +164,11 @@ class Store(LockedFolder, Reader):
     def finish(self, summary, maps=None):
         """Store the summary (and maps {name: (values, dims, units, text)}) and mark the run as finished."""
         with _disk_errors(self.path, f"every step is stored; then use: tehl resume {self.path}"):
-            group = zarr.open_group(str(self.path), mode="r+", use_consolidated=False)
             for name, (values, dims, units, text) in (maps or {}).items():
-                if name in group:
-                    del group[name]
-                kind = "f4" if np.asarray(values).dtype == np.float32 else "f8"
-                values = np.asarray(values, kind)
-                layout.array(group, name, values.shape, values.shape, kind, dims, units, text, float("nan"))[...] = values
-            written = layout.metadata(self.path)
-            self.metadata |= {name: written[name] for name in maps or {}}
+                if os.path.lexists(self.path / name):
+                    remove_whole(self.path / name)
+                layout.whole(self.path, name, values, dims, units, text, math.nan)
+                self.metadata |= layout.metadata(self.path, name)
             self._commit(summary=json.dumps(plain(summary)), results=json.dumps(list(maps or {})), finished=True,
                          **texts(summary.get("warnings", self.warnings)))
 

@@ -1,22 +1,21 @@
 """Height maps of a scene inside its store: it can be shown, resumed and run again without the map files."""
 
+import numpy as np
+
 from tehl_taichi.errors import StoreError, brief
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.feature import SHAPES
 from tehl_taichi.scene.surface.maps import height_map
-from tehl_taichi.store import chunks
+from tehl_taichi.store import chunks, layout
 
 
-def write(group, scene):
+def write(folder, scene):
     """Store the heights of the scene's maps as they were read, each once, under the hash that its feature names."""
     for feature in scene.features:
-        if feature.kind.measured and _name(feature.sha256) not in group:
-            name = _name(feature.sha256)
-            array = group.create_array(name, shape=feature.heights.shape, dtype="f8",
-                                       dimension_names=[f"{name}_row", f"{name}_column"])
-            array.attrs.update({"units": feature.unit, "long_name": "heights as in the file, neither turned nor levelled",
-                                "sha256": feature.sha256, "pixel_m": list(feature.file_steps), "file": feature.file})
-            array[...] = feature.heights
+        if feature.kind.measured and not (folder / (name := _name(feature.sha256))).exists():
+            layout.whole(folder, name, np.asarray(feature.heights, float), [f"{name}_row", f"{name}_column"], feature.unit,
+                         "heights as in the file, neither turned nor levelled", sha256=feature.sha256,
+                         pixel_m=list(feature.file_steps), file=feature.file)
 
 
 def scene_of(path, data):

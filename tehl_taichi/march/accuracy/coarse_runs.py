@@ -331,7 +331,7 @@ def judged(coarse, own):
             grids, reasons = [], [*reasons, one["reason"]]
         else:
             grids.append({name: GridReading(**values) for name, values in one["values"].items()})
-    found, unknown = bars([*grids, own])
+    found, unknown = bars([*grids, own], passing=True)
     none = Reason("; ".join(reasons) or "no coarser grid is possible", "coarse")
     return found, unknown if grids else dict.fromkeys(unknown, none)
 

@@ -42,6 +42,15 @@ def test_an_earlier_difference_counts_where_the_last_one_is_small_by_accident():
     assert estimated_error([1.0, 1.1])[0] == pytest.approx(0.15) and np.isnan(estimated_error([1.0])[0])
 
 
+@pytest.mark.parametrize("place", [(), (0.0,)])
+def test_two_grids_say_less_of_a_passage(place):
+    def two(*values):
+        return bar([GridReading(value, place=place, cell=1.0) for value in values], passing=True)[0]
+
+    assert two(1.0, 1.0) == pytest.approx(1e-2) and two(1.0, 1.1) == pytest.approx(0.2)
+    assert two(0.7, 1.0, 1.1) < 0.2  # three say more
+
+
 def test_no_bar_is_narrower_than_what_the_iterations_may_have_left():
     """Grids that agree to 0.1 mK while rounds end at 50 mK."""
     # two grids alone: a thousandth
