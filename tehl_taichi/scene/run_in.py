@@ -37,8 +37,9 @@ def check(scene):
     if not count or not scene.transient:
         return
     if not yielding_surfaces(scene):
-        raise SceneError(f"time.run_in = {count} needs the yield stress of a body that moves: set bodies.a.yield_stress or "
-                         "bodies.b.yield_stress, in Pa (2.2e9 is that of hardened bearing steel)")
+        keys = " or ".join(f"bodies.{s.name}.yield_stress" for s, rests in zip(scene.surfaces, scene.at_rest) if not rests)
+        raise SceneError(f"time.run_in = {count} needs the yield stress of a body that moves: set {keys}, in Pa (2.2e9 is that "
+                         "of hardened bearing steel)")
     if cut_at(scene) is not None and scene.time.steps:  # 0: the steady start alone, `tehl resume` does the rest
         raise SceneError(f"time.run_in = {count} needs whole passages: omit time.steps and time.x_end")
     for surface in yielding_surfaces(scene):

@@ -1,5 +1,6 @@
 """Warnings about a scene that can be simulated, known before a run; one sentence each."""
 
+from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.scene import (
     domain,
     domain_warnings,
@@ -17,6 +18,7 @@ from tehl_taichi.scene import (
     timeline,
 )
 from tehl_taichi.scene.strength.strength import Strength
+from tehl_taichi.scene.strength.table import HARDNESS
 from tehl_taichi.values.coded_text import Option
 from tehl_taichi.values.coded_warning import coded_warning, unique, with_data
 from tehl_taichi.values.quantity import Number
@@ -97,6 +99,17 @@ def counted_twice(scene):
                "so the given residual stress counts twice; set limit_of = specimen, or no residual stress")
 
 
+def beyond_relation(scene):
+    """Warning about hardness outside the range of the relation that gives the limit."""
+    tables = [Strength(scene.fatigue, surface).table for surface in scene.judged] if scene.has_fatigue else []
+    hardness = [value for table in tables if table and table.has(HARDNESS) for value in table.columns[HARDNESS]]
+    relation = RELATIONS[scene.fatigue.relation]
+    if hardness and (min(hardness) < relation.low or max(hardness) > relation.high):
+        text = (f"the table has {min(hardness):g} to {max(hardness):g} HV; fatigue.relation = {relation.name} is used for "
+                f"{relation.low:g} to {relation.high:g} HV, and limits beyond that range are extrapolated")
+        yield with_data(text, hardness_HV=[min(hardness), max(hardness)], range_HV=[relation.low, relation.high])
+
+
 def left_out_of_window(scene):
     """Features that the window of a zoom does not ride with."""
     followed = scene.reference.name
@@ -115,5 +128,5 @@ def wide_domain(scene):
 CHECKS = {resolution.warnings: "cells", domain_warnings.warnings: "room", thin_film.warnings: "film", oil_range.warnings: "oil",
           named_steels.doubts: "steel", cut_passage: "cut", thinned: "moments", doubtful_features: "feature",
           unusual: "unit", idle_keys.doubts: "idle", wide_domain: "inlet", stiff_oil.warnings: "frozen",
-          counted_twice: "residual", left_out_of_window: "window",
+          counted_twice: "residual", beyond_relation: "hardness", left_out_of_window: "window",
           slow_surfaces.warnings: "slow"}

@@ -173,6 +173,17 @@ def test_a_limit_of_a_contact_beside_residual_stress_is_doubted():
     assert doubted(limit_of="contact", residual_xx=-2e8)
 
 
+@pytest.mark.parametrize("rows, relation, said", [
+    ("0.0,900.0\n0.001,400.0", "ss2506", "the table has 400 to 900 HV; fatigue.relation = ss2506 is used for 350 to 800 HV"),
+    ("0.0,700.0\n0.001,300.0", "ss2506", "300 to 700 HV"), ("0.0,700.0\n0.001,400.0", "ss2506", ""),
+    ("0.0,700.0\n0.001,400.0", "rotating-bending", "120 to 640 HV"), ("0.0,800.0\n0.001,350.0", "ss2506", "")])
+def test_a_hardness_beyond_the_relation_is_doubted(rows, relation, said):
+    made = GEAR.replace(**{"fatigue.table_rows": f"depth_m,hardness_HV\n{rows}", "fatigue.relation": relation})
+    found = [one for one in made.warnings() if one.code == "hardness"]
+    assert len(found) == bool(said) and all(said in one for one in found)
+    assert not [one for one in made.replace(**{"fatigue.on": False}).warnings() if one.code == "hardness"]
+
+
 def test_a_store_of_a_relation_that_is_not_installed_names_it():
     data = GEAR.to_dict()
     assert integrity.missing_choice(json.dumps(data)) == ""
