@@ -13,16 +13,18 @@ def section(store):
     if not store.summary.get("run_in", {}).get("plastic_strain_max"):
         return ()
     state = store.run_in
-    found = run_in_data.profile(store.scene, state)
-    return (Section("Run-in", (figure_block(_heights(found), _passages(state.records)), figure_block(*_residual(found)))),)
+    found = run_in_data.profiles(store.scene, state)
+    most = max(one.largest for one in found) / 1e6
+    maps = [figure_block(*_residual(one, most)) for one in found]
+    return (Section("Run-in", (figure_block(*map(_heights, found), _passages(state.records)), *maps)),)
 
 
 def _heights(found):
     """Figure of heights along the middle, before and after."""
     lines = [line(found.x * 1e6, found.before * 1e6, "before", GREY, dash="dash"),
              line(found.x * 1e6, found.after * 1e6, "after run-in", colour(0))]
-    return stack("run-in-height", f"Heights of body {found.body} along the middle, before and after run-in.", ALONG,
-                 [("height (µm)", lines, {})], height=330)
+    caption = f"Heights of body {found.body} along the middle, before and after run-in."
+    return stack(f"run-in-height-{found.body}", caption, ALONG, [("height (µm)", lines, {})], height=330)
 
 
 def _passages(records):
@@ -36,13 +38,14 @@ def _passages(records):
                  x={"tickvals": numbers}, height=330)
 
 
-def _residual(found):
-    """Maps of the residual stress along and across, over the depth."""
-    out, most = [], found.largest / 1e6
+def _residual(found, most):
+    """Maps of the residual stress along and across, over the depth; most: end of the colours, MPa."""
+    out = []
     for words, stress in found.residual.items():
         low, high = stress.min() / 1e6, stress.max() / 1e6
-        made = field_map(f"run-in-{words[-2:]}", f"Residual stress {words} under the middle of body {found.body}: {low:.0f} to "
-                         f"{high:.0f} MPa (tension is positive).", found.x * 1e6, found.depths * 1e6, stress / 1e6, RESULT,
+        caption = (f"Residual stress {words} under the middle of body {found.body}: {low:.0f} to {high:.0f} MPa (tension is "
+                   "positive).")
+        made = field_map(f"run-in-{words[-2:]}-{found.body}", caption, found.x * 1e6, found.depths * 1e6, stress / 1e6, RESULT,
                          "MPa", ALONG, DEPTH, true=False, zmin=-most, zmax=most)
         made.layout["yaxis"] = axis(DEPTH, autorange="reversed")
         out.append(made)

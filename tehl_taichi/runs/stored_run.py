@@ -128,9 +128,14 @@ class Run:
         from tehl_taichi.runs.stored_fatigue import assessed
 
         scene = changed(self.scene, constants)
+        resolved = until
         if until is None and len(self.store) > 1:
-            until = coarse_runs.resolved(self.scene, self.store, self.store.scalar)
-        found = assessed(self.store, scene, progress, until, threads)
+            resolved = coarse_runs.resolved(self.scene, self.store, self.store.scalar)
+        found = assessed(self.store, scene, progress, resolved, threads)
+        if self.store.map("zoom_entry") is not None:
+            from tehl_taichi.runs import stored_window
+
+            found = stored_window.refined(self.store, scene, found, progress, until)
         fatigue_errors.add_errors(found.summaries, scene.fatigue, self.store)
         return found
 

@@ -67,22 +67,24 @@ def search(saved, found, alone, progress):
     results, ends = [], zoomed_points.ends(saved.scene, alone)
     for level in reversed(found):  # the finest first, whose stresses by the heat of the run the others take over
         level.reader.kept_heat = found[-1].reader.kept_heat
-        results.append(_searched(saved, level, ends, progress))
+        results.append(searched(saved, saved.scene, level.reader, ends, progress))
         level.searches = zoomed_points.completed(results[-1].summaries, alone.summaries)
     return found[-1].searches, zoomed_points.deeper(results[0], alone).to_arrays()
 
 
-def _searched(saved, level, ends, progress):
-    """The SearchResult of a level at the points between these ends, at all where the worst lies at an end."""
+def searched(saved, scene, reader, ends, progress, until=None):
+    """The SearchResult of a run with a window, with the constants of `scene`, at the points between these ends, at all where
+    the worst lies at an end; until: position (a), by default up to where the window resolves the pressure."""
     from tehl_taichi.runs.stored_fatigue import assessed
 
-    reader = level.reader
-    until, reader.searched = coarse_runs.resolved(saved.scene, reader, reader.scalar), ends
-    found = assessed(saved, saved.scene, progress, until, reader=reader)
+    if until is None:
+        until = coarse_runs.resolved(scene, reader, reader.scalar)
+    reader.searched = ends
+    found = assessed(saved, scene, progress, until, reader=reader)
     if not zoomed_points.at_an_end(found, ends, float(reader.x[1] - reader.x[0])):
         return found
     reader.searched = {}
-    return assessed(saved, saved.scene, progress, until, reader=reader)
+    return assessed(saved, scene, progress, until, reader=reader)
 
 
 def corrected(saved, found, searches, passage, domain):

@@ -1,5 +1,7 @@
 """The section of a report on a run-in."""
 
+import itertools
+
 import made_results
 import made_run_in
 import numpy as np
@@ -26,17 +28,18 @@ def report(tmp_path, monkeypatch, state):
 def test_it_has_heights_passages_and_residual_stress_as_the_arrays_of_the_run(tmp_path, monkeypatch):
     state = made_run_in.flowed()
     seen = report(tmp_path, monkeypatch, state)
-    assert "Run-in" in seen.headings and {"run-in-height", "run-in-passages", "run-in-xx", "run-in-yy"} <= set(seen.places)
-    before, after = (numbers(trace) for trace in seen.figures["run-in-height"]["data"])
-    assert (before - after).max() == pytest.approx(0.3, rel=1e-3)
+    assert "Run-in" in seen.headings
+    for body, sunk in (("a", 0.3), ("b", 0.01)):
+        before, after = (numbers(trace) for trace in seen.figures[f"run-in-height-{body}"]["data"])
+        assert (before - after).max() == pytest.approx(sunk, rel=0.02)
     assert values(seen.figures["run-in-passages"]["data"][0]["y"]) == pytest.approx([300, 0])
     arrays = run_in_numbers.arrays(state)
-    for component in ("xx", "yy"):
-        figure = seen.figures[f"run-in-{component}"]
-        stress = next(one[0] for name, one in arrays.items() if name == f"residual_{component}_a")
+    for body, component in itertools.product("ab", ("xx", "yy")):
+        figure = seen.figures[f"run-in-{component}-{body}"]
+        stress = next(one[0] for name, one in arrays.items() if name == f"residual_{component}_{body}")
         least = np.min(stress) / 1e6
-        assert numbers(figure["data"][0]).min() == pytest.approx(least, rel=1e-4)
-        assert f"{least:.0f} to 0 MPa" in seen.text.replace("-0 MPa", "0 MPa")
+        assert numbers(figure["data"][0]).min() == pytest.approx(least, rel=1e-4) and figure["data"][0]["zmax"] > 300
+        assert f"of body {body}: {least:.0f} to 0 MPa" in seen.text.replace("-0 MPa", "0 MPa")
         assert figure["layout"]["yaxis"]["autorange"] == "reversed"
     assert "After one passage of run-in the height is 1.2 µm (1.5 µm before)" in seen.text
 

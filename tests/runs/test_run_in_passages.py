@@ -12,6 +12,7 @@ import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment
 from tehl_taichi.fatigue.assessment import Snapshots
 from tehl_taichi.march.passage import march
+from tehl_taichi.plastic import run_in
 from tehl_taichi.plastic.run_in import RunInState
 from tehl_taichi.report import verdict
 from tehl_taichi.runs import run_in_stage
@@ -131,6 +132,26 @@ def test_a_window_has_the_surface_and_the_residual_stress_of_its_run(done, tmp_p
     assert found.summary["run_in"]["history"] == done.summary["run_in"]["history"] and found.store.map("sinking_a").max() > 2e-7
     removed = tehl.zoom(path, 0)
     assert removed.summary["fatigue"] == done.summary["fatigue"] and removed.store.map("zoom_pressure") is None
+
+
+@pytest.mark.slow
+def test_a_window_with_temperatures_has_the_surface_heat_and_residual_stress_after_run_in(tmp_path, monkeypatch):
+    """In one command; as a thermal passage on a grid twice as fine over the same surfaces and steel of both bodies. Any
+    surface will do, so one round leaves it."""
+    monkeypatch.setattr(run_in, "ROUNDS", 1)
+    scene = STEEL.replace(**{"thermal.on": True, "time.run_in": 1, "zoom.factor": 2, "bodies.b.yield_stress": 2.2e9})
+    found = tehl.run(scene, tmp_path / "hot.zarr", threads=2)
+    state, own, base = found.store.run_in, found.summary["transient"], found.summary["zoom"]["base"]
+    fine = scene.replace(**{"grid.nx": 128, "grid.ny": 32, "time.run_in": 0, "zoom.factor": 0})
+    reader = Snapshots(march(fine, changes=state.changes), state.residual_fields)
+    for name in ("p_max_Pa", "film_max_C", "surface_a_max_C", "surface_b_max_C"):
+        there = max(shot.scalars[name] for shot in reader.items[1:])
+        assert abs(own[name] - there) < max(1e-3 * there, 0.3 * abs(base[name] - there)), name
+    searched = assessment.run(fine, reader, alone=False).summaries
+    for body in "ab":
+        now, there = found.summary["fatigue_by_surface"][body], searched[body]
+        assert now["Fi_max"] == pytest.approx(there["Fi_max"], rel=0.04), body
+        assert now["below"]["Fi_max"] == pytest.approx(there["below"]["Fi_max"], rel=0.01), body
 
 
 def test_a_window_with_more_pressure_than_steel_flowed_under_is_a_warning():

@@ -56,6 +56,21 @@ def test_its_bars_hold_the_numbers_of_a_run_four_times_finer(zoomed, folder):
     assert abs(found["below"]["Fi_max"] - there["below"]["Fi_max"]) < found["below"]["error"]["Fi_max"]
 
 
+def test_its_fatigue_with_other_constants_has_the_window(plain, zoomed):
+    """With those of the run it is the stored search; the largest index moves with the limit and keeps its bar."""
+    stored, again = zoomed.summary["fatigue"], zoomed.fatigue().summary
+    for now, there in ((again, stored), (again["below"], stored["below"])):
+        for key in ("Fi_max", "x_m", "y_m"):
+            assert now[key] == pytest.approx(there[key], rel=1e-6), key
+        assert now["error"]["Fi_max"] == pytest.approx(there["error"]["Fi_max"], rel=1e-5)
+    assert again["statistics"]["p99"] == pytest.approx(stored["statistics"]["p99"], rel=1e-6)
+    assert again["contact_alone"]["Fi_max"] == pytest.approx(stored["contact_alone"]["Fi_max"], rel=1e-6)
+    half = zoomed.fatigue(endurance=800e6).summary
+    assert half["Fi_max"] == pytest.approx(stored["Fi_max"] / 2, rel=1e-6)
+    assert half["Fi_max"] != pytest.approx(plain.fatigue(endurance=800e6).summary["Fi_max"], rel=1e-3)
+    assert half["error"]["Fi_max"] == pytest.approx(stored["error"]["Fi_max"] / 2, rel=1e-5)
+
+
 def test_its_fields_are_stored_with_their_places(zoomed):
     store = Reader.open(zoomed.path)
     p, left, x, entries = (store.map(f"zoom_{name}") for name in ("pressure", "left", "x", "entry"))

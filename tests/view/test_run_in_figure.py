@@ -1,5 +1,6 @@
 """Figure of a run-in, of a state that is made up."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import made_run_in
@@ -19,15 +20,25 @@ def drawn(state):
         return run_in(page, SimpleNamespace(store=store))
 
 
-def test_it_shows_heights_stresses_and_passages_of_the_body_that_changed_most():
+def test_it_shows_heights_stresses_and_passages_of_both_bodies_that_flowed():
     figure = drawn(made_run_in.flowed())
-    assert figure.get_suptitle() == "gear: run-in of body a, 1 passage before the one that is judged"
-    heights, passages, along, across = figure.axes[:4]
+    assert figure.get_suptitle() == "gear: run-in of bodies a and b, 1 passage before the one that is judged"
+    heights, passages, along, across, other, strains, under, _ = figure.axes[:8]
     before, after = (line.get_ydata() for line in heights.lines)
     assert before.max() == pytest.approx(1.5) and after.max() == pytest.approx(1.2)
     assert [one.get_height() for one in passages.patches] == pytest.approx([300, 0])
-    assert [ax.get_title() for ax in (along, across)] == ["residual σ_xx", "residual σ_yy"] and along.yaxis_inverted()
+    assert [ax.get_title() for ax in (along, across)] == ["body a: residual σ_xx", "body a: residual σ_yy"]
     assert len(along.collections[0].get_array().reshape(-1)) == 21 * 3  # without the deepest layer, which has less than 2 %
+    assert other.get_title() == "surface b" and other.lines[1].get_ydata().min() == pytest.approx(-0.01)
+    assert [one.get_height() for one in strains.patches] == pytest.approx([0.1, 0.001, 0.02, 0])
+    assert under.get_title() == "body b: residual σ_xx" and along.yaxis_inverted() and under.yaxis_inverted()
+    assert under.collections[0].get_clim() == along.collections[0].get_clim()
+
+
+def test_one_body_that_flowed_has_four_panels():
+    state = made_run_in.flowed()
+    figure = drawn(replace(state, bodies={"a": state.bodies["a"], "b": made_run_in.body(0.0)}))
+    assert figure.get_suptitle().startswith("gear: run-in of body a, 1") and len(figure.axes) == 5  # and a colour bar
 
 
 def test_a_run_in_that_changed_nothing_says_so():

@@ -10,8 +10,8 @@ DEEP = 0.02  # of the largest residual stress: deeper layers have less and are n
 
 @dataclass(frozen=True)
 class RunInProfile:
-    """Profile of the body whose surface changed most, in its plane y = 0 (or the row next to it). name; x (m) and heights (m)
-    before and after; depths (m); residual: {"σ_xx": (x, depths) Pa, ...}.
+    """Profile of a body in its plane y = 0 (or the row next to it). body: its name; x (m) and heights (m) before and after;
+    depths (m); residual: {"σ_xx": (x, depths) Pa, ...}.
     """
 
     body: str
@@ -27,9 +27,15 @@ class RunInProfile:
         return max(np.abs(values).max() for values in self.residual.values()) or 1.0
 
 
-def profile(scene, state):
-    """The :class:`RunInProfile` of a :class:`tehl_taichi.plastic.run_in.RunInState` that has bodies."""
-    name, body = max(state.bodies.items(), key=lambda one: np.abs(one[1].start.sinking).max())
+def profiles(scene, state):
+    """The :class:`RunInProfile` of each body whose steel flowed, that of the largest change first; of a
+    :class:`tehl_taichi.plastic.run_in.RunInState` that has bodies. Without flow that of one body.
+    """
+    order = sorted(state.bodies.items(), key=lambda one: -np.abs(one[1].start.sinking).max())
+    return [_profile(scene, *one) for n, one in enumerate(order) if not n or one[1].start.hardened.any()]
+
+
+def _profile(scene, name, body):
     row = int(np.argmin(np.abs(body.y)))
     features = next(surface for surface in scene.surfaces if surface.name == name).features
     before = sum((f.height_at(body.x - f.x, body.y[row] - f.y) for f in features), np.zeros(body.x.size))
@@ -39,7 +45,14 @@ def profile(scene, state):
                         {words: stress[:last, n].T for n, words in enumerate(COMPONENTS.values())})
 
 
-def title(scene, state, body):
-    """Title with the scene, the body, and the number of passages."""
+def added_strains(found, records):
+    """{body: largest plastic strain that each passage adds} of these profiles and the records of a state."""
+    return {one.body: [record["new_by_surface"][one.body] for record in records] for one in found}
+
+
+def title(scene, state, found):
+    """Title with the scene, the bodies of these profiles, and the number of passages."""
     count = f"{state.passages} passage{'s' * (state.passages != 1)} before the one that is judged"
-    return f"{scene.name}: run-in of body {body}, {count if state.passages else 'no steel yields'}"
+    bodies = " and ".join(one.body for one in found)
+    whose = f"bod{'ies' if len(found) > 1 else 'y'} {bodies}"
+    return f"{scene.name}: run-in of {whose}, {count if state.passages else 'no steel yields'}"
