@@ -1,20 +1,20 @@
-"""Need of a finished run for a fine window, and which window settles it."""
+"""Whether a finished run needs a fine window, and which factors to try."""
 
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.scene import resolution
 
-FACTORS = 4, 8  # tried one after the other; the first has a window of factor 2 beside it for its error bars
-SLOWER = 2.3  # a node of a window than one of the run: more rounds a step (gear with temperatures, 256x64, SRR 0.12, factor 4)
-DECIDING = {"p_max_Pa": "the largest pressure", "h_min_m": "the smallest film"}  # numbers whose error a window may settle
+FACTORS = 4, 8  # of windows to try in turn; a window of half the factor runs with each, for the error bars
+SLOWER = 2.3  # time per node and step of a window over that of the run (gear with temperatures, 256x64, SRR 0.12, factor 4)
+DECIDING = {"p_max_Pa": "the largest pressure", "h_min_m": "the smallest film"}  # numbers whose error a window may determine
 
 
 def factors(run):
-    """Factors of windows to try, in this order; none where the grid resolves features and pressures."""
+    """Factors of windows to try, in this order; () if the grid of the run resolves features and pressures."""
     return FACTORS if reason(run) else ()
 
 
 def reason(run):
-    """Reason why a run needs a window, in words; "" where it needs none."""
+    """Text why a run needs a window; "" if it needs none."""
     if few := few_cells(run.scene):
         return f"a feature of {few[0]:.2g} cells"
     if (place := until(run.store)) is not None:
@@ -25,7 +25,7 @@ def reason(run):
 
 
 def work(store, factor):
-    """Time of a run with a window of this factor, and of half of it for the error bars, over that of the run alone."""
+    """Estimated time of a run with windows of this factor and of half of it, over the time of the run without them."""
     from tehl_taichi.march.zoom.window import Window
     from tehl_taichi.march.zoom.zoomed_passage import LEAD
 
@@ -37,20 +37,20 @@ def work(store, factor):
 
 
 def levels(factor):
-    """Factors of the windows of a run: half of its own, for the error bars, and its own."""
+    """Factors of the windows of a run: half the factor (for the error bars; omitted if 1), and the factor."""
     return [one for one in (factor // 2, factor) if one > 1]
 
 
 def until(store):
-    """Position (a) of the feature up to which a run needs no window; None where it needs one everywhere, or nowhere."""
+    """Position (a) of the feature up to which a run needs no window; None if it needs one everywhere, or nowhere."""
     return None if few_cells(store.scene) else coarse_runs.resolved(store.scene, store, store.scalar)
 
 
 def few_cells(scene):
-    """Cells across each feature that has fewer than it takes for an error below 5 %."""
+    """Numbers of cells across the features that have too few of them for an error below 5 %."""
     return [sight.cells for sight in resolution.sights(scene) if sight.cells < resolution.ENOUGH]
 
 
 def settled(run):
-    """Whether the error of the largest pressure of a run with a window is known."""
+    """Whether the error of the largest pressure is known in a run with a window."""
     return run.summary["transient"]["error"].get("p_max_Pa") is not None

@@ -1,4 +1,4 @@
-"""A fine window that is added to a finished run: of a given factor, or as fine as it takes."""
+"""Addition of a fine window to a finished run: of a given factor, or as fine as needed."""
 
 import time
 from os import PathLike
@@ -12,7 +12,7 @@ from tehl_taichi.values.quantity import AUTO
 
 
 def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = None, progress: Progress | None = None) -> Run:
-    """As :func:`tehl_taichi.zoom`."""
+    """Add a window: see :func:`tehl_taichi.zoom`."""
     if factor == AUTO:
         return _zoom_as_needed(path, threads, progress or Progress())
     began = time.perf_counter()
@@ -31,7 +31,8 @@ def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = N
 
 
 def _zoom_as_needed(path, threads, progress):
-    """The run with the first window that settles its largest pressure, or the finest; as it is where it needs none."""
+    """Try windows in turn until the error of the largest pressure is known; return the Run, without a window if it needs
+    none."""
     from tehl_taichi.runs import zoom_need
 
     done = single_run.open(path)

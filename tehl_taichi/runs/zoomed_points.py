@@ -1,4 +1,4 @@
-"""Points of a body that are searched again where a run has a fine window: those that the run found badly loaded."""
+"""Choice of the points that are searched again with a fine window: those with a large stress in the run without it."""
 
 from dataclasses import replace
 
@@ -7,15 +7,19 @@ import numpy as np
 from tehl_taichi.fatigue.depth_profile import RATIO
 from tehl_taichi.scene.scales import Scales
 
-SURFACE, BELOW = 0.7, 0.9  # of the largest stress there, from which a point counts; below, the contact alone has much of it
-BESIDE = 0.06  # a, around these points; below, one depth
-LEAST = 5  # depths of the run: stresses between them are cubics
-KEPT = "statistics", "stressed"  # of the summary, which need all points
+# share of the largest stress at the surface and below it from which a point is searched again. Below, the smooth contact alone
+# causes a large part of the stress
+SURFACE, BELOW = 0.7, 0.9
+BESIDE = 0.06  # a: distance searched around these points
+LEAST = 5  # least number of depths: stresses between them are interpolated by cubics
+KEPT = "statistics", "stressed"  # parts of the summary of the run that are kept, since they need all points
 
 
 def ends(scene, found):
-    """{surface: ((x' from, to), (y from, to), (depth from, to)) m} of the points to search; found: the SearchResult of the run
-    alone. Of rough surfaces all, {}."""
+    """{surface: ((x' from, to), (y from, to), (depth from, to)) m} of the points to search again; {}: all (rough surfaces).
+
+    found: SearchResult of the run without a window.
+    """
     if found.numbers.get("rough"):
         return {}
     deepest = max(_deepest(one) for one in found.by_surface.values())
@@ -23,7 +27,7 @@ def ends(scene, found):
 
 
 def _deepest(found):
-    """Depth down to which the window may matter: there the stress of the run is much less than its largest."""
+    """Depth (m) down to which a window may matter: below it the stress of the run is much less than the largest one."""
     if found.findley_stress_under_row is None:
         return np.inf
     depths, under = found.row_depths, found.index("findley_stress_under_row").max(axis=1)
@@ -39,6 +43,7 @@ def _worst_depths(numbers):
 
 
 def _of(found, a):
+    """((x' from, to), (y from, to)) m of one body; a: half-width, m."""
     x, y = np.asarray(found.feature_frame_x), np.asarray(found.feature_frame_y)
     columns, rows = np.nonzero(found.findley_stress >= SURFACE * found.findley_stress.max())
     places = [x[columns]]
@@ -49,14 +54,16 @@ def _of(found, a):
 
 
 def _around(some, places, side):
-    """From where to where these lie, with `side` more; without an end where that is beyond all places."""
+    """(from, to) of the positions `some`, with a margin `side` (m); infinite if that is beyond all `places`."""
     low, high = float(some.min() - side), float(some.max() + side)
     return (low if low > places.min() else -np.inf), (high if high < places.max() else np.inf)
 
 
 def at_an_end(found, ends_of, cell):
-    """Whether the worst point of a body, at the surface or below it, lies at an end of what was searched of it, so that a worse
-    one may lie beyond; found: SearchResult; ends_of: of :func:`ends`; cell: m."""
+    """Whether the worst point of a body lies at an end of the searched part, so that a worse one may lie beyond it.
+
+    found: SearchResult of the searched part; ends_of: result of :func:`ends`; cell: size of a fine cell, m.
+    """
     for name, one in found.by_surface.items():
         points = [one.numbers, *([one.numbers["below"]] if "below" in one.numbers else [])]
         if name in ends_of and (any(_near(ends_of[name], part, cell) for part in points)
@@ -66,14 +73,14 @@ def at_an_end(found, ends_of, cell):
 
 
 def _near(box, part, cell):
-    """Whether a point lies within a cell of an end of a box, but for that below."""
+    """Whether a point lies within a cell of a side of the box (its lower end is not checked)."""
     (left, right), (low, high), _ = box
     x, y = part["x_m"], part["y_m"]
     return min(x - left, right - x, y - low, high - y) < cell
 
 
 def deeper(found, run):
-    """The SearchResult of some points, down to some depth, with the stresses under a row of the run's below that."""
+    """The SearchResult `found` of some points, with the stresses of the run (SearchResult) at the depths below them."""
     others = run.by_surface
     return replace(_deeper(found, others[found.numbers["surface"]]),
                    other=found.other and _deeper(found.other, others[found.other.numbers["surface"]]))
@@ -98,7 +105,7 @@ def _deeper(found, run):
 
 
 def completed(summaries, run):
-    """{surface: summary} of a search of some points with what needs all of them from that of the run, {surface: summary}."""
+    """{surface: summary} of a search of some points, with the parts KEPT from the {surface: summary} of the run."""
     return {name: _with(one, run.get(name, {})) for name, one in summaries.items()}
 
 

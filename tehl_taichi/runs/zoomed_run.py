@@ -1,7 +1,7 @@
-"""A run with a fine window: the window's passages after that of the run, the fatigue with them, numbers and their bars.
+"""Windows of a finished run: their passages, the fatigue search with them, their numbers with error bars.
 
-Windows of half the factor and of the whole one make three grids with the run itself: their bars are found as those of
-coarse-grid runs are.
+Windows of half the factor and of the full factor are, with the run itself, three grids; error bars follow from them as from
+coarse-grid runs.
 """
 
 import functools
@@ -32,7 +32,7 @@ DIMS = ["zoom_moment", "zoom_x", "zoom_y"]
 
 @dataclass
 class ZoomLevel:
-    """A window's passage, the run with it as a reader, and {surface: summary of its search}."""
+    """One window: its passage, the reader of the run with it, and {surface: summary of the search}."""
 
     passage: zoomed_passage.ZoomedPassage
     reader: ZoomedReader
@@ -40,8 +40,11 @@ class ZoomLevel:
 
 
 def refined(saved, passage, alone, domain, progress):
-    """(error bars and numbers, {surface: summary}, arrays) of a run with its fine window; passage, alone: bars and SearchResult
-    (None: no index) of the run alone."""
+    """Add the windows of a finished run; return (error bars and numbers, {surface: summary}, arrays).
+
+    saved: store of the run. passage: its error bars, see :func:`corrected`. alone: its SearchResult, None without an index.
+    domain: the DomainError of the run (:mod:`tehl_taichi.march.accuracy.domain_error`).
+    """
     windows = levels(saved, progress)
     found, arrays_found = search(saved, windows, alone, progress) if alone else ({}, {})
     both = corrected(saved, windows, alone.summaries if alone else {}, passage, domain)
@@ -50,7 +53,7 @@ def refined(saved, passage, alone, domain, progress):
 
 
 def levels(saved, progress):
-    """The ZoomLevels of the run in the store `saved`, coarsest first."""
+    """Compute the windows of the run in the store `saved`; return their ZoomLevels, coarsest first."""
     scene = saved.scene
     factors = zoom_need.levels(scene.zoom.factor)
     progress.stage(ZOOM, 0, len(saved) - 1)
@@ -62,10 +65,12 @@ def levels(saved, progress):
 
 
 def search(saved, found, alone, progress):
-    """Search the fatigue of every level, of the points that matter in `alone`, the SearchResult of the run. Returns ({surface:
-    summary}, arrays) of the finest."""
+    """Search the fatigue of every level; return ({surface: summary}, arrays) of the finest one.
+
+    alone: SearchResult of the run without windows, which determines the searched points.
+    """
     results, ends = [], zoomed_points.ends(saved.scene, alone)
-    for level in reversed(found):  # the finest first, whose stresses by the heat of the run the others take over
+    for level in reversed(found):  # the finest first: the others use its thermal stresses of the run
         level.reader.kept_heat = found[-1].reader.kept_heat
         results.append(searched(saved, saved.scene, level.reader, ends, progress))
         level.searches = zoomed_points.completed(results[-1].summaries, alone.summaries)
@@ -73,8 +78,11 @@ def search(saved, found, alone, progress):
 
 
 def searched(saved, scene, reader, ends, progress, until=None):
-    """The SearchResult of a run with a window, with the constants of `scene`, at the points between these ends, at all where
-    the worst lies at an end; until: position (a), by default up to where the window resolves the pressure."""
+    """The SearchResult of a run with a window, at the points between `ends`; at all points if the worst one lies at an end.
+
+    scene: its fatigue constants are used; reader: ZoomedReader; until: position (a) of the feature, by default up to where the
+    window resolves the pressure.
+    """
     from tehl_taichi.runs.stored_fatigue import assessed
 
     if until is None:
@@ -88,8 +96,11 @@ def searched(saved, scene, reader, ends, progress, until=None):
 
 
 def corrected(saved, found, searches, passage, domain):
-    """The error bars `passage` (as of :func:`tehl_taichi.march.accuracy.coarse_runs.errors`) of a run with those of the numbers
-    that its windows change; searches: {surface: summary} of the run without them."""
+    """Error bars of a run with windows: those of `passage`, replaced for the numbers that the windows change.
+
+    found: ZoomLevels. searches: {surface: summary} of the run without windows. passage: error bars of the run, as of
+    :func:`tehl_taichi.march.accuracy.coarse_runs.errors`. domain: see :func:`refined`.
+    """
     grids = [coarse_runs.passage_readings(saved.scene, saved, saved.scalar, searches),
              *(coarse_runs.passage_readings(saved.scene, level.reader, level.reader.scalar, level.searches) for level in found)]
     changed = {name for name, reading in grids[-1].items()
@@ -106,8 +117,11 @@ def corrected(saved, found, searches, passage, domain):
 
 
 def _with_early(sizes, parts):
-    """Bars {name: size or None} of a window that begins late, in which indices have that of the moments before it, too, which
-    no window shows: that of the run while it resolves the pressure. parts: "passage_parts" of the run."""
+    """Error bars {name: size or None} of a window that begins late.
+
+    Indices also contain the error of the moments before the window, which is that of the run while it resolves the pressure.
+    parts: "passage_parts" of the run.
+    """
     out = dict(sizes)
     for name, size in sizes.items():
         surface, _, index = name.partition(":")
@@ -118,8 +132,10 @@ def _with_early(sizes, parts):
 
 
 def summary(saved, found, errors, searches):
-    """The part "zoom" of the summary: numbers of the finest level; errors: of :func:`corrected`; searches: {surface: summary}
-    of it."""
+    """Part "zoom" of the summary: numbers of the finest level.
+
+    errors: result of :func:`corrected`; searches: {surface: summary} of the finest level.
+    """
     last = found[-1]
     w, scene, keys = last.passage.window, saved.scene, list(last.reader.series)
     out = {"factor": w.factor, "window_a": [w.nx * w.dx, _width(scene, w)], "cells": [w.nx, w.ny],
@@ -141,7 +157,7 @@ def _largest(search):
 
 
 def _width(scene, w):
-    """Width of the window along y, a; on a half domain that of both halves."""
+    """Width of the window along y, a; on a half domain the width of both halves."""
     return w.ny * w.dy * (2 if scene.symmetric and w.ny else 1)
 
 
@@ -151,7 +167,7 @@ def _position(saved, entries):
 
 
 def arrays(found):
-    """{name: (values, dims, units, text)} of the finest level for a store."""
+    """{name: (values, dimensions, unit, long name)} of the finest level, for the store."""
     last, w = found[-1].passage, found[-1].passage.window
     out = {f"zoom_{name}": (np.stack(values), DIMS, *FIELDS[name]) for name, values in last.fields.items() if values}
     x = found[-1].reader.x

@@ -1,5 +1,6 @@
-"""Zoom: a fine window that rides with a feature through the states of a run on a coarser grid.
+"""Zoom: a fine window that moves with a feature through the states of a run on a coarser grid.
 
-`window` says where it lies, `refining` takes fields from the nodes of the run to its own, `base_states` are those of the run,
-`outside_gap` is the film that the pressure outside bends, `window_levels` its tables and `window_passage` its march in time.
+`window` is its position and size, `base_states` interpolates the states of the run in time, `outside_gap` is the deflection by
+the pressure outside the window. `window_levels` holds its tables, `window_heat` its temperatures, `window_passage` its time
+steps, and `zoomed_passage` its whole passage. `zoomed_reader` reads the run with its window, for the fatigue search.
 """

@@ -1,4 +1,4 @@
-"""States of a run at any moment between its stored steps, by polynomials in time at rest."""
+"""States of a run at any moment between its stored steps: polynomials in time at each node."""
 
 import functools
 from dataclasses import dataclass
@@ -14,13 +14,16 @@ from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.timeline import step_length
 from tehl_taichi.values.interpolation import lagrange
 
-POINTS = 4  # states of a polynomial
+POINTS = 4  # states that a polynomial uses
 
 
 @dataclass(frozen=True)
 class BaseState:
-    """X: of the first feature, a; P, mass (rho H), bent (deflection of the bodies): (ny+1, nx+1); H0: rigid approach; T: (nodes
-    across, ny+1, nx+1) deg C, or one number without temperatures."""
+    """State of the run at one moment, dimensionless.
+
+    X: centre of the first feature, a. P, mass (rho H), bent (deflection of the bodies): (ny+1, nx+1). H0: rigid approach. T:
+    temperatures (nodes across the film, ny+1, nx+1), deg C, or one number if the run is isothermal.
+    """
 
     X: float
     P: np.ndarray
@@ -37,8 +40,10 @@ class BaseState:
 
 
 class BaseStates:
-    """States of the run of a scene that `reader` holds (every step, the steady start first); its `surface_changes`, where it
-    has any: what run-in left of the surfaces; its `kept_states`: KeptStates of its march."""
+    """States of the run of a scene, from a reader of every step (the steady start first).
+
+    The reader may have `surface_changes`, the changes of the surfaces by run-in, and `kept_states`, the KeptStates of the run.
+    """
 
     def __init__(self, scene, reader):
         self.scene, self.reader, self.scales = scene, reader, Scales.of(scene)
@@ -51,16 +56,16 @@ class BaseStates:
         self.entry = functools.lru_cache(maxsize=2 * POINTS)(self._entry)
 
     def skip_to(self, step):
-        """Take the states from this step on, and those that polynomials need beside it."""
+        """Allow only states from this step on (and those before it that its polynomials need): earlier heat is skipped."""
         if self.heat:
             self.heat.skip_to(step - POINTS)
 
     def position(self, step):
-        """Centre of the first feature, a, at a step (or between two)."""
+        """Centre of the first feature (a) at a step; a fraction is a moment between two steps."""
         return self.first_x + step * self.way
 
     def at(self, step):
-        """The BaseState at a step, or between two."""
+        """The BaseState at a step; a fraction is a moment between two steps."""
         whole = round(step)
         if abs(step - whole) < 1e-9:
             return self.entry(whole)
@@ -74,19 +79,19 @@ class BaseStates:
         p, film = (np.asarray(found[name], float).T for name in ("pressure", "film"))
         H, H0 = film / s.h, float(self.reader.scalar("h0_m")[n]) / s.h
         gap = self.gap(self.smooth, self.grid, self.position(n))
-        if n == 0:  # the start is smooth; features come into its film with the first step
+        if n == 0:  # the steady start has no features; they enter its film with the first step
             H = H + gap - smooth_with(self.grid, self.scene.standing)
         T = self.heat.at(n).T if self.heat else self.scene.operation.temperature
         return BaseState(self.position(n), p / s.p_H, self._density(p, T) * H, H - gap - H0, H0, T)
 
     def gap(self, smooth, levels, X):
-        """The undeformed gap `smooth` of some levels with features in it, and what run-in left of them; X: of the first, a."""
+        """Undeformed gap `smooth` of `levels` with the features at X (a, of the first one), as run-in changed them."""
         gap = with_features(smooth, levels, self.scene.surfaces, X)
         sink(gap, levels, self.scene.surfaces, self.changes, X)
         return gap
 
     def _density(self, p, T):
-        """Mean over the film."""
+        """Mean density ratio (ny+1, nx+1) over the film thickness, from p (Pa) and T (deg C)."""
         if not self.heat:
             return rho_ratio(self.scene.film_oil, p, T)
         return np.tensordot(ChebyshevNodes(len(T)).weights, rho_film(self.scene.oil, p, T), 1)

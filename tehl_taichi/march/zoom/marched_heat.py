@@ -1,16 +1,16 @@
-"""Temperatures of a run as it had them, or computed again step by step: stores do not hold what a window needs of them."""
+"""Temperatures of a run that a window needs, which stores do not hold: kept in memory, or computed again step by step."""
 
 import functools
 
 from tehl_taichi.march.passage import march
 from tehl_taichi.march.zoom.kept_states import HeatState
 
-KEPT = 12  # newest states; a window looks two steps ahead and three back
+KEPT = 12  # newest states that are kept: a window needs two steps ahead and three back
 
 
 class MarchedHeat:
-    """The HeatState of a step of the run of `scene`, in rising order; changes: of its surfaces by run-in; kept: KeptStates of
-    it or None."""
+    """The HeatStates of the run of `scene`, to be read in rising order; changes: of its surfaces by run-in; kept: its
+    KeptStates or None."""
 
     def __init__(self, scene, changes=(), kept=None):
         self.march, self.kept = functools.partial(march, scene, changes=changes), kept
@@ -20,13 +20,13 @@ class MarchedHeat:
             self._begin_at(kept.start)
 
     def skip_to(self, step):
-        """Steps before this one are not looked for any more, but for the start."""
+        """Continue from the kept state closest before this step; earlier steps (except the start) are no longer available."""
         state = self.kept.before(step) if self.kept and self.kept.start else None
         if state and int(state["step"]) > self.newest:
             self._begin_at(state)
 
     def at(self, step):
-        """The HeatState of a step: a kept one, or of the newest ones. Raises NotConverged where the run does."""
+        """The HeatState of a step. Raises NotConverged if the repeated run does not converge."""
         if step in self.known:
             return self.known[step]
         while self.newest < step:

@@ -1,10 +1,10 @@
-"""A reader that reads no field twice, as far as fields find room: windows, both bodies and averages take the same ones."""
+"""A reader that keeps the fields it has read: windows, both bodies and averages read the same fields."""
 
-BYTES = 3e8
+BYTES = 3e8  # largest memory of the kept fields
 
 
 class ReadOnce:
-    """As the store `reader` of a run that is finished."""
+    """Reader of a finished run's store `reader`, with the same attributes."""
 
     def __init__(self, reader):
         self.reader, self.kept, self.room = reader, {}, BYTES

@@ -1,6 +1,9 @@
-"""Start values of a window's next state: extrapolated in the frame of the contact and in that of the feature, and by what the
-window differed from the run, each trusted where it was right one step ago (see :mod:`tehl_taichi.march.extrapolation`, which
-does the same on a grid at rest)."""
+"""Start values of the next state of a window, from several guesses.
+
+Guesses are extrapolations in the frame of the contact and in the frame of the feature, and the run plus the last difference
+between window and run. At each node a guess has the more weight the smaller its error was one step ago
+(:mod:`tehl_taichi.march.extrapolation` does this on a grid at rest).
+"""
 
 from dataclasses import dataclass
 
@@ -9,13 +12,16 @@ import numpy as np
 from tehl_taichi.pressure.history import carried
 from tehl_taichi.values.interpolation import lagrange
 
-NOTHING = 1e-14  # squared error that is as good as none
+NOTHING = 1e-14  # squared errors below this count as zero
 
 
 @dataclass(frozen=True)
 class WindowState:
-    """A field (..., ny+1, nx+1) of the window, less that of the start (`passing`) and less that of the run (`finer`); its first
-    column `origin`, and its feature `at` columns of the fine grid."""
+    """A field (..., ny+1, nx+1) of the window.
+
+    passing: the field less that of the steady start; finer: the field less that of the run; origin: first fine column of the
+    window; at: place of the feature, columns of the fine grid.
+    """
 
     field: np.ndarray
     passing: np.ndarray
@@ -25,10 +31,9 @@ class WindowState:
 
 
 class TwoFrames:
-    """The last states of a field in a window, and what comes next.
+    """The last states of a field in a window, and the guess of the next one.
 
-    order: highest order of extrapolation; start: the field of the start (..., ny+1, columns) on all columns of the fine grid,
-    which does not move with a feature.
+    order: highest order of extrapolation; start: the field of the steady start (..., ny+1, columns) on all fine columns.
     """
 
     def __init__(self, order, start):
@@ -36,8 +41,10 @@ class TwoFrames:
         self.made, self.missed = None, None
 
     def next(self, run, origin, at):
-        """The guess for the state with the window from column `origin` on and the feature `at`; run: the field of the run
-        there. Raises IndexError before the first :meth:`accept`."""
+        """Guess the field for a window that begins at column `origin` with the feature at column `at`.
+
+        run: the field of the run there. Raises IndexError before the first :meth:`accept`.
+        """
         self.made = self._guesses(run, origin, at)
         if self.missed is None:
             return self.made[0]
@@ -46,18 +53,19 @@ class TwoFrames:
         return sum(weight * guess for weight, guess in zip(weights, self.made)) / sum(weights)
 
     def accept(self, field, run, origin, at):
-        """The newest state; run: the field of the run there."""
+        """Take `field` as the newest state; run: the field of the run there."""
         known = len(self.states) > self.order
         self.missed = [_nearby((guess - field) ** 2) for guess in self.made] if known and self.made else None
         newest = WindowState(field, field - self._rests(origin, field), field - run, origin, at)
         self.states = [newest, *self.states[: self.order]]
 
     def _rests(self, origin, like):
+        """The field of the steady start in the window, shaped as `like`."""
         return self.start[..., origin : origin + like.shape[-1]]
 
     def _guesses(self, run, origin, at):
-        """The run with the last difference; of order 1 up to the highest, in both frames, or the newest state where it is the
-        only one."""
+        """List of guesses: the run plus the last difference; then extrapolations of order 1 to the highest in both frames (of
+        order 0 if only one state is known)."""
         rests, newest = self._rests(origin, run), self.states[0]
         back = [one.origin - origin for one in self.states]
         ride = [at - one.at + way for one, way in zip(self.states, back)]
@@ -72,7 +80,8 @@ class TwoFrames:
 
 
 def _nearby(squares):
-    """Summed over what lies before the last two axes, and over each node and its neighbours."""
+    """Sums (ny+1, nx+1) of `squares` (..., ny+1, nx+1) over all but the last two axes, and over each node and its
+    neighbours."""
     out = squares.reshape(-1, *squares.shape[-2:]).sum(axis=0)
     out = np.pad(out, 1, mode="edge")
     out = out[:-2] + out[1:-1] + out[2:]

@@ -1,6 +1,6 @@
 """Temperatures of a window: solved inside, those of the run along its border.
 
-The bodies move through the window; the memory of the strips that come in is that of the run.
+The bodies move through the window. Where they enter it, their memory of heat is that of the run.
 """
 
 import numpy as np
@@ -10,15 +10,18 @@ from tehl_taichi.heat.chebyshev import largest
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march.zoom.two_frames import TwoFrames
 
-WHOLE = 1e-9  # cells
-HOTTER = 20.0  # K, that a film is guessed to become than it was
-ORDER = 2  # of the extrapolation in time
+WHOLE = 1e-9  # cells: smaller differences from a whole number count as zero
+HOTTER = 20.0  # K: largest rise above the last state in a guess
+ORDER = 2  # order of the extrapolation in time
 
 
 class WindowHeat:
-    """The :class:`tehl_taichi.heat.temperatures.FilmHeat` (film) of a window on `levels` that `base`
-    (:class:`tehl_taichi.march.zoom.base_states.BaseStates`) drives; refining(first, columns): to its nodes; given: nodes of its
-    border; dt: step of the run, s."""
+    """Temperatures of a window; its attribute `film` is a :class:`tehl_taichi.heat.temperatures.FilmHeat`.
+
+    base: :class:`tehl_taichi.march.zoom.base_states.BaseStates` of the run. levels: the WindowLevels. refining(first, columns):
+    the Refining from the run to the window's rows and these fine columns. given: mask (ny+1, nx+1) of the nodes of the border.
+    dt: step of the run, s.
+    """
 
     def __init__(self, base, levels, refining, given, dt):
         self.base, self.window, self.refining, self.given = base, levels.window, refining, given
@@ -27,7 +30,7 @@ class WindowHeat:
         self.guess = TwoFrames(ORDER, refining(0, self.window.all_nx + 1).smooth(base.at(0).T, 4))
 
     def take_over(self, step, origin, at):
-        """The temperatures of the run at a step, with the window from column `origin` on and its feature `at`."""
+        """Take the temperatures of the run at a step; origin: first fine column; at: place of the feature, fine columns."""
         state, self.origin = self.base.heat.at(step), origin
         offset = self.window.factor * state.offset
         T = self._fine(state.T, origin)
@@ -35,42 +38,46 @@ class WindowHeat:
         self.guess.accept(self.film.T, T, origin, at)
 
     def begin(self, T, origin, at, dt):
-        """Prepare a step of dt s to temperatures T of the run, this place of the window and of its feature, in columns."""
+        """Prepare a step of dt (s) to a moment with the run's temperatures T, the first column `origin` and the feature
+        `at`."""
         self.film.begin(dt, origin - self.origin)
         self.run = self._fine(T, origin)
         guess = np.clip(self.guess.next(self.run, origin, at), self.film.T.min(), self.film.T.max() + HOTTER)
         self.film.set_temperature(np.where(self.given, self.run, guess))
 
     def accept(self, origin, at):
-        """The step becomes the last one."""
+        """Accept the step: it becomes the last one."""
         self.film.accept()
         self.guess.accept(self.film.T, self.run, origin, at)
         self.origin = origin
 
     def refresh(self, step):
-        """The memory of what lies along the border becomes that of the run at this step."""
+        """Set the memory of the bodies along the border to that of the run at this step."""
         bodies = self.film.bodies
         memory = np.where(self.given, self._memory(self.base.heat.at(step), self.origin), bodies.memory())
         bodies.restore(memory, bodies.offset)
 
     def fields(self):
-        """{name: (ny+1, nx+1)} of the newest state, deg C."""
+        """{name: (ny+1, nx+1) deg C} of the newest state."""
         T = self.film.T
         return {"temperature_mid": T[len(T) // 2], "temperature_a": T[0], "temperature_b": T[-1]}
 
     def inside(self):
-        """{name: deg C}: highest temperatures of the newest state, of nodes that are the window's own."""
+        """{name: highest temperature, deg C} of the newest state, at the nodes that belong to the window."""
         return _highest(self.film.T[:, self.window.inside(self.origin)])
 
     def outside(self, T):
-        """{name: deg C}: those of temperatures T of the run elsewhere."""
+        """{name: highest temperature, deg C} of the run's temperatures T at the nodes that do not belong to the window."""
         return _highest(T[:, self.window.outside(self.origin)])
 
     def _fine(self, T, origin):
         return self.refining(origin, self.window.nx + 1).smooth(T, 4)
 
     def _memory(self, state, origin):
-        """Memory of the bodies of a HeatState at the strips of the window: strip i of the run is strip factor i + `ahead`."""
+        """Memory (slots, ny+1, nx+1) of the bodies of a HeatState at the strips of the window.
+
+        Strip i of the run is strip factor i + `ahead` of the fine grid.
+        """
         factor, count = self.window.factor, conduction_modes.MODES
         whole = np.floor(factor * state.offset + WHOLE) - factor * np.floor(state.offset + WHOLE)
         out = np.empty((len(state.memory), *self.given.shape))
@@ -83,4 +90,5 @@ class WindowHeat:
 
 
 def _highest(T):
+    """{name: highest temperature} of T (nodes across the film, ...), deg C."""
     return {"film_max_C": largest(T), "surface_a_max_C": T[0].max(), "surface_b_max_C": T[-1].max()}

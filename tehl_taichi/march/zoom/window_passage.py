@@ -1,7 +1,7 @@
-"""The march in time of a window that rides with a feature: each of its steps as in a passage, driven by the states of the run.
+"""Time steps of a window that moves with a feature, driven by the states of the run.
 
-Pressure and temperatures along its border, rigid approach, the film that is bent from outside and the history of rho H along
-the border are those of the run, between whose steps it takes `factor` of its own.
+These values are those of the run: pressure and temperatures along the border, the rigid approach, the deflection by the
+pressure outside, and the history of rho H along the border. The window takes `factor` steps per step of the run.
 """
 
 import numpy as np
@@ -21,12 +21,14 @@ from tehl_taichi.values.refining import Refining
 
 SHEAR = "traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b"
 GUESSED = 2  # order of the guess of the pressure
-PAD = 4  # cells of the run beside the window whose history is kept: more than it moves and paths reach in ORDER steps
+PAD = 4  # cells of the run around the window whose history is kept: more than the window and the oil move in ORDER steps
 
 
 class WindowPassage:
-    """The passage of `window` (:class:`tehl_taichi.march.zoom.window.Window`) through the run whose states are `base`
-    (:class:`tehl_taichi.march.zoom.base_states.BaseStates`)."""
+    """The passage of a window through a run.
+
+    base: :class:`tehl_taichi.march.zoom.base_states.BaseStates` of the run; window: its Window.
+    """
 
     def __init__(self, base, window):
         self.scene, self.window, self.base = base.scene, window, base
@@ -44,7 +46,7 @@ class WindowPassage:
         self.storage = None
 
     def begin(self, step):
-        """Take over the run at this step, with its history."""
+        """Start from the state of the run at this step, with its history."""
         moments = [at for at in (step - n / self.window.factor for n in range(ORDER)) if at >= 0]
         self.old = [self._kept(state, self.window.origin(state.X)) for state in map(self.base.at, moments)]
         state = self.base.at(step)
@@ -56,8 +58,10 @@ class WindowPassage:
         self.storage.lengths = [self.dT] * (len(self.old) - 1)
 
     def advance(self, step):
-        """From `step` to the next of the run. Returns the reports of its steps; the last one has not converged where it failed
-        for good."""
+        """Advance from `step` of the run to the next one, in shorter steps where one fails.
+
+        Returns the SolveReports of the steps. If the last one has not converged, the window cannot continue.
+        """
         done, whole, reports, self.extremes = 0.0, self.window.factor, [], []
         while done < whole - 1e-9:
             part = min(self.parts.next(done % 1.0), whole - done)
@@ -73,7 +77,10 @@ class WindowPassage:
         return reports
 
     def _try(self, at, part):
-        """The state at a moment of the run, `part` of a step after the last accepted one; accepted if it converged."""
+        """Solve the state at a moment `at` of the run (in its steps), `part` of a window's step after the last accepted one.
+
+        Accepts it if it converges. Returns the SolveReport.
+        """
         state = self.base.at(at)
         origin, ring = self._put(state)
         self._follow(origin, part * self.dT)
@@ -86,7 +93,7 @@ class WindowPassage:
         return report
 
     def _solve(self, guess, state, origin, part):
-        """Pressure, and temperatures where there are any, of a step from this pressure on. Returns a SolveReport."""
+        """Solve pressure and temperatures of a step from the pressure `guess`; return the SolveReport."""
         def pressure():
             return carefully(self.solver, guess)
 
@@ -96,21 +103,26 @@ class WindowPassage:
         return exchange(self.solver, self.film, pressure, rounds(self.scene, part), sparing=True)
 
     def fields(self):
-        """{name: (ny+1, nx+1)} of the newest state, SI."""
+        """{name: (ny+1, nx+1)} of the newest state, SI units."""
         v, s = self.levels, self.levels.scales
         shear = dict(zip(SHEAR, self.film.tractions()))
         warm = self.heat.fields() if self.heat else {}
         return {"pressure": v.get(fields.P) * s.p_H, "film": v.get(fields.H) * s.h, **shear, **warm}
 
     def numbers(self, step):
-        """{name: number} of all its moments since the step before: largest pressure and smallest film of the window alone,
-        highest temperatures of the run with it."""
+        """{name: number} over all moments since the last step of the run.
+
+        Largest pressure and smallest film of the window alone; highest temperatures of the window and of the run outside of it.
+        """
         found = {name: extreme([one[name] for one in self.extremes]) for name, (_, extreme) in EXTREMES.items()}
         outside = self.heat.outside(self.base.at(step).T) if self.heat else {}
         return {**found, **{name: max(there, *(one[name] for one in self.extremes)) for name, there in outside.items()}}
 
     def _put(self, state):
-        """Gap and pressure of the run at a state into the tables. Returns the window's first column, and that pressure."""
+        """Write gap and pressure of the run's `state` into the tables.
+
+        Returns the window's first fine column and this pressure (ny+1, nx+1).
+        """
         origin = self.window.origin(state.X)
         ring = self._refining(origin, self.window.nx + 1).pressure(state.P)
         self.outside.put(state, origin, ring)
@@ -120,26 +132,27 @@ class WindowPassage:
         return origin, ring
 
     def _refining(self, first, columns):
-        """From the nodes of the run to `columns` of the fine grid and the rows of the window."""
+        """Interpolation from the run's nodes to `columns` fine columns from `first` on and the rows of the window."""
         w, grid = self.window, self.base.grid
         return Refining((w.row, first), (w.ny + 1, columns), w.factor, (grid.ny + 1, grid.nx + 1), self.base.mirrored)
 
     def _follow(self, origin, dT):
-        """History of rho H under the window as it lies now, and the storage term of a step of dT."""
+        """Prepare the storage term of a step dT, with the history of rho H at the present position of the window."""
         self.storage.replace(self._under(origin, *self.resting), [self._under(origin, *kept) for kept in self.old])
         self.storage.begin(dT)
 
     def _at(self, state):
-        """Place of the first feature, columns of the fine grid."""
+        """Place of the first feature in fine columns from X = 0."""
         return state.X / self.window.dx
 
     def _extremes(self, origin):
-        """{name: number} of the newest state, of nodes that are the window's own."""
+        """{name: number} of the newest state, at the nodes that belong to the window."""
         v, s, inside = self.levels, self.levels.scales, self.window.inside(origin)
         found = {"p_max_Pa": v.get(fields.P)[inside].max() * s.p_H, "h_min_m": v.get(fields.H)[inside].min() * s.h}
         return found | (self.heat.inside() if self.heat else {})
 
     def _accept(self, state, origin, ring, dT):
+        """Accept the solved state as the newest one."""
         v = self.levels
         self.origin = origin
         self.old = [self._kept(state, origin, v.get(fields.RHO) * v.get(fields.H)), *self.old[: ORDER - 1]]
@@ -150,7 +163,10 @@ class WindowPassage:
         self.extremes.append(self._extremes(origin))
 
     def _kept(self, state, origin, mass=None):
-        """(first column, rho H) of a state under the window and beside it: that of the run but where the window's is `mass`."""
+        """(first fine column, rho H) of a state in and around the window.
+
+        It is the run's rho H, replaced inside the window's border by `mass` (None: not replaced).
+        """
         beside, w = PAD * self.window.factor, self.window
         first = max(origin - beside, 0)
         last = min(origin + w.nx + beside, w.all_nx)
@@ -161,6 +177,7 @@ class WindowPassage:
         return first, out
 
     def _under(self, origin, first, field):
-        """A field of the fine grid from column `first` on, at the nodes of the window; beyond its ends as there."""
+        """Field (ny+1, nx+1) at the window's nodes, from a `field` that begins at fine column `first`; constant beyond its
+        ends."""
         columns = np.arange(origin, origin + self.window.nx + 1) - first
         return field[:, np.clip(columns, 0, field.shape[1] - 1)]

@@ -1,4 +1,4 @@
-"""The whole passage of a window through the run of a scene, its fields at every step, and what ended it."""
+"""The whole passage of a window through the run of a scene: its fields at every step, and why it ended."""
 
 from dataclasses import dataclass, field
 
@@ -9,14 +9,17 @@ from tehl_taichi.march.zoom.window import Window
 from tehl_taichi.march.zoom.window_passage import WindowPassage
 from tehl_taichi.values.quantity import AUTO
 
-LEAD = 0.4  # a, of a window before the first moment that it is needed for: the oil under it then is its own
+LEAD = 0.4  # a: distance of the feature that a window begins before it is needed, so that all oil in it is its own by then
 
 
 @dataclass
 class ZoomedPassage:
-    """window; entries of the run (from 1 on) and first fine columns of the window at each; fields {name: list of
-    (nx+1, ny+1) f4, SI}; numbers {name: list} of the run with the window in it; ended: why it did not reach its last step, or
-    ""; newton, cycles, attempts: work."""
+    """Results of a window at the steps of the run.
+
+    entries: numbers of the run's entries (from 1 on). origins: first fine column of the window at each. fields: {name: list of
+    (nx+1, ny+1) f4, SI units}. numbers: {name: list}, extremes of the run with the window. ended: reason why it stopped before
+    its last step, or "". newton, cycles, attempts: Newton steps, linear iterations, time steps.
+    """
 
     window: Window
     entries: list = field(default_factory=list)
@@ -29,7 +32,7 @@ class ZoomedPassage:
     attempts: int = 0
 
     def add(self, entry, origin, values, numbers):
-        """One moment."""
+        """Add the results at one entry; values: {name: (ny+1, nx+1)}."""
         self.entries.append(entry)
         self.origins.append(origin)
         for name, value in values.items():
@@ -38,17 +41,18 @@ class ZoomedPassage:
             self.numbers.setdefault(name, []).append(number)
 
     def count(self, reports):
-        """Add the work of some steps."""
+        """Add the work of some SolveReports."""
         self.newton += sum(report.newton for report in reports)
         self.cycles += sum(report.cycles for report in reports)
         self.attempts += len(reports)
 
 
 def passages(scene, reader, factors, notify=lambda done, total: None, until=None):
-    """The ZoomedPassages of windows of these factors through the run of a scene in `reader` (every step, the start first);
-    until: position (a) of the feature up to which the run resolves the pressure, None: anywhere.
+    """Move windows of these factors through the run of a scene; return a list of their ZoomedPassages.
 
-    A step that fails for good ends one; notify(done, total) after each step of the run.
+    reader: every step of the run, the steady start first. until: position (a) of the feature up to which the run resolves the
+    pressure; None: windows begin with the passage. notify: called with (done, total) steps of the run. A window that does
+    not converge ends; the others continue.
     """
     base = BaseStates(scene, reader)
     marches = [WindowPassage(base, Window.of(scene, factor)) for factor in factors]
@@ -67,7 +71,7 @@ def passages(scene, reader, factors, notify=lambda done, total: None, until=None
 
 
 def _advance(march, found, step):
-    """One window, from `step` to the next of the run."""
+    """Advance one window from `step` to the next step of the run, and add its results to `found`."""
     reports = march.advance(step)
     found.count(reports)
     if reports[-1].converged:
@@ -77,7 +81,7 @@ def _advance(march, found, step):
 
 
 def steps_of(scene, base, until=None):
-    """(first, last) step of the run between which there is a window, from zoom.from_x to to_x; until: see :func:`passages`."""
+    """(first, last) step of the run with a window, by zoom.from_x and to_x; until: see :func:`passages`."""
     at, begin = np.array([base.position(n) for n in range(base.last + 1)]), scene.zoom.from_x
     if begin == AUTO:
         begin = -np.inf if until is None else until - LEAD

@@ -1,4 +1,4 @@
-"""A run with its window, as one run on the fine grid: what fatigue is searched in."""
+"""Reader of a run with its window, as one run on the fine grid, for the fatigue search."""
 
 import numpy as np
 
@@ -6,13 +6,15 @@ from tehl_taichi.fatigue.stress.kept_tables import KeptTables
 from tehl_taichi.fatigue.stress.windowed import POINTS, Extent, Inside
 from tehl_taichi.values.refining import Refining
 
-EXTREMES = {"p_max_Pa": ("pressure", np.max), "h_min_m": ("film", np.min)}  # numbers of an entry that the window changes
+EXTREMES = {"p_max_Pa": ("pressure", np.max), "h_min_m": ("film", np.min)}  # numbers of an entry that a window changes
 
 
 class ZoomedReader:
-    """As :class:`tehl_taichi.fatigue.stress.histories.StressHistories` takes it: fields of `reader`, whose nodes are `factor`
-    times as far apart, with those of the :class:`tehl_taichi.march.zoom.zoomed_passage.ZoomedPassage` in them; worst: whether
-    the worst points of its fatigue are all that is wanted."""
+    """Reader for :class:`tehl_taichi.fatigue.stress.histories.StressHistories`: a run on the fine grid, with a window in it.
+
+    reader: of the run. zoomed: :class:`tehl_taichi.march.zoom.zoomed_passage.ZoomedPassage` of the window. mirrored: whether
+    rows begin at a symmetry plane. worst: whether only the worst points are searched.
+    """
 
     def __init__(self, reader, zoomed, mirrored, worst=False):
         self.base, self.zoomed, w, self.searched = reader, zoomed, zoomed.window, {}
@@ -38,7 +40,7 @@ class ZoomedReader:
         return self.series[name] if name in self.series else self.base.scalar(name)
 
     def _take_extremes(self, n):
-        """The largest pressure and the least film of entry n: of the window since the entry before, of the run elsewhere."""
+        """Set the largest pressure and the smallest film of entry n: of the window since the last entry, of the run outside."""
         at = self.place[n]
         outside = self.zoomed.window.outside(self.zoomed.origins[at]).T
         run = self.base.fields(n, tuple(field for field, _ in EXTREMES.values()))
@@ -46,7 +48,7 @@ class ZoomedReader:
             self.series[name][n] = extreme([extreme(run[field][outside]), self.zoomed.numbers[name][at]])
 
     def fields(self, n, names):
-        """{name: (nx+1, ny+1) array} of entry n."""
+        """{name: (fine nodes along x, fine nodes along y)} of entry n, SI units."""
         return {name: self._field(name, n, field) for name, field in self.base.fields(n, names).items()}
 
     def _field(self, name, n, field):
@@ -57,6 +59,7 @@ class ZoomedReader:
         return np.ascontiguousarray(out.T)
 
     def _paste(self, out, name, n):
+        """Replace the field `out` (rows, columns) inside the window by that of its moment n."""
         columns, rows = self._nodes(n)
         own = out[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
         own += self._core(n).T * (self.zoomed.fields[name][n].T - own)
@@ -70,8 +73,10 @@ class ZoomedReader:
                       {name: self._of_run(at, field) for name, field in run.items()})
 
     def difference(self, n, name):
-        """(first fine column, (columns, rows) of a field of the window less that of the run, with the weight of the core) of
-        entry n, or None."""
+        """(first fine column, difference (columns, rows)) of entry n, or None without a window.
+
+        The difference is the field of the window less that of the run, times the weight of the core.
+        """
         if (at := self.place.get(n)) is None:
             return None
         columns, rows = self._nodes(at)
@@ -81,7 +86,7 @@ class ZoomedReader:
         return int(columns[0]), self._core(at) * (self.zoomed.fields[name][at] - refining.smooth(field, POINTS).T)
 
     def _of_run(self, at, field):
-        """A field of the run round the window, with the weight of the core."""
+        """A field of the run at its nodes around the window, times the weight of the core."""
         w, origin, (first, count) = self.window, self.zoomed.origins[at], self.window.coarse_rows
         columns = w.coarse_column(origin) + np.arange(w.coarse_columns)
         rows = first + np.arange(count)
@@ -90,22 +95,22 @@ class ZoomedReader:
         return core * np.asarray(field, float)[there]
 
     def _nodes(self, at):
-        """Fine columns and rows of the window of a moment."""
+        """(numbers of the fine columns, of the fine rows) of the window at a moment."""
         w, origin = self.zoomed.window, self.zoomed.origins[at]
         return np.arange(origin, origin + w.nx + 1), np.arange(w.row, w.row + w.ny + 1)
 
     def _core(self, at):
-        """(columns, rows) of a moment."""
+        """Weight (columns, rows) of the core at a moment."""
         return self.zoomed.window.core(*self._nodes(at), self.zoomed.origins[at]).T
 
 
 def extreme(reader, name):
-    """A number of the passage in a reader that windows change."""
+    """Extreme over the passage (without the start) of a number that windows change, such as "p_max_Pa"."""
     reduce = EXTREMES[name][1] if name in EXTREMES else np.max
     return float(reduce(reader.scalar(name)[1:]))
 
 
 def _between(places, factor):
-    """Places with factor - 1 more between neighbours."""
+    """Nodes with factor - 1 further ones between neighbours."""
     fine = np.arange((len(places) - 1) * factor + 1) / factor
     return np.interp(fine, np.arange(len(places)), places)
