@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-MOST, BYTES = 8, 1e8  # largest number and memory of the whole states (one thermal state of 257x65x9 nodes has 11 MB) HEAT_BYTES
-= 3e8  # largest memory of the temperatures. To repeat a march on 128x32x9 nodes takes 4.5 of the 50 s of its windows; # its 193
-states have 281 MB
+MOST, BYTES = 8, 1e8  # largest number and memory of the whole states (one thermal state of 257x65x9 nodes has 11 MB)
+# largest memory of the temperatures. To repeat a march on 128x32x9 nodes takes 4.5 of the 50 s of its windows; its 193 states
+# have 281 MB
+HEAT_BYTES = 3e8
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,15 @@
-"""The deflection K and the distribution K^-1 as convolutions inside kernels: for a pair of blocks, or a group of their waves.
+"""The deflection K and the distribution K^-1 as convolutions inside kernels, on a pair of blocks or a group of waves.
 
-Along x a real transform of period 2 M >= twice the cells (K; of the cells for K^-1, which is periodic), done as a complex one
-of half the length on two blocks of W rows, in neighbouring lanes. Along y Toeplitz plus Hankel matrices, rows being mirrored
-at y = 0: Y(k) = A(k) X(k) + B(k) X(-k), by complex transforms of length N >= 2 ny over the waves along x, as many in lanes. A
-is the transform of the even kernel t(0), t(1), ..., B that of t(0 ... 2 ny - 1) for the mirror images (0 for a whole domain,
-A where the other end is a mirror, too), the rows on a mirror count half. A line contact continues its outermost row for ever:
-that is subtracted, and what the strip answers is added. Cosine transforms from running sums would lose digits: 1e-5 in single
-precision for 512 rows.
+Along x: a real transform of period 2 M, at least twice the cells (K) or the cells (K^-1, which is periodic). It is computed as
+a complex transform of half the length, on the rows of two blocks in neighbouring lanes.
+
+Along y: rows are mirrored at y = 0, so the matrices are Toeplitz plus Hankel: Y(k) = A(k) X(k) + B(k) X(-k), by complex
+transforms of length N >= 2 ny, with GROUP waves in the lanes. A is the transform of the even kernel t(0), t(1), ...; B is that
+of t(0 ... 2 ny - 1) for the mirror images (0 for a whole domain, A if the other end is also a mirror). Rows on a mirror count
+half.
+
+A line contact continues its outermost row for ever: this row is subtracted, and the response of a strip is added. Cosine
+transforms from running sums would lose digits: 1e-5 in single precision for 512 rows.
 """
 
 import functools
@@ -21,19 +24,23 @@ from tehl_taichi.engine.simd import W, cells
 from tehl_taichi.engine.task_pool import team_size
 from tehl_taichi.pressure import influence
 
-GROUP = 2 * W  # rows along x at once, and waves along x that are transformed along y: one transform in the code serves both
-THERE, ACROSS, BACK = range(3)  # ways of transforms: along x to the waves, along y to the symbol and back, back along x
+GROUP = 2 * W  # rows transformed together along x, and waves transformed together along y, by the same code
+THERE, ACROSS, BACK = range(3)  # steps: along x to the waves; along y, times the symbol, and back; back along x
 _column = itertools.count()
 LEVEL, M, N, NY, PAIRS, GROUPS, STEP = (next(_column) for _ in range(7))  # STEP: entries from row to row of the spectra
-SPECTRA, SYMBOL, STRIP, SPLIT = (next(_column) for _ in range(4))  # first entries: in the field Y; of the twiddle factors
-X_ROW, X_ROWS, Y_ROW, Y_ROWS = (next(_column) for _ in range(4))  # passes of both transforms
-HALF_FIRST, HALF_LAST, ENDLESS = (next(_column) for _ in range(3))  # rows on a mirror; an outermost row that continues
-WORK, SIZE = (next(_column) for _ in range(2))  # first entry and size of the buffers, two of each worker
+SPECTRA, SYMBOL, STRIP, SPLIT = (next(_column) for _ in range(4))  # first entries in the field Y; SPLIT: first twiddle factor
+X_ROW, X_ROWS, Y_ROW, Y_ROWS = (next(_column) for _ in range(4))  # first pass and number of passes of both transforms
+HALF_FIRST, HALF_LAST, ENDLESS = (next(_column) for _ in range(3))  # whether end rows lie on a mirror; the outermost continues
+WORK, SIZE = (next(_column) for _ in range(2))  # first entry and size of the buffers, two for each worker
 COLUMNS = next(_column)
 
 
 class TransformSize:
-    """Lengths of one convolution: nx, ny: cells; least: period along x that it needs; M, N: of the complex transforms."""
+    """Lengths of one convolution.
+
+    level: number of the level; nx, ny: cells; least: smallest period along x. Attributes: M, N: lengths of the complex
+    transforms; groups, pairs: numbers of groups of waves and pairs of blocks; step: entries of a row of the spectra.
+    """
 
     def __init__(self, level, nx, ny, least):
         self.level, self.nx, self.ny = level, nx, ny
@@ -43,17 +50,20 @@ class TransformSize:
 
 
 def transform_sizes(sizes, lines):
-    """Sizes for the deflection on the finest grid and the distributions on `lines`. The latter are periodic over the cells,
-    those of profiles over twice as many: no further radices, and less work (Newton / Krylov of 20 steps of furrow-line 25/92,
-    with one cell between the ends 26/96)."""
+    """TransformSizes: of the deflection on the finest level, then of the distributions on the levels `lines`.
+
+    sizes: (nx, ny) of each level. The distributions have the period of the cells, for a single row twice that: no further
+    radices, and less work (20 steps of furrow-line: 25 Newton and 92 Krylov iterations; 26 and 96 with a period of one cell
+    more).
+    """
     periods = [nx * (1 if ny else 2) for nx, ny in sizes]
     return [TransformSize(0, *sizes[0], 2 * sizes[0][0]), *(TransformSize(l, *sizes[l], periods[l]) for l in lines)]
 
 
 class Layout:
-    """Table of convolutions and places in the fields (Y: spectra, symbols, buffers; T: twiddle factors); `y`, `t`: their sizes.
+    """Table of the convolutions, with their places in the fields Y (spectra, symbols, buffers) and T (twiddle factors).
 
-    shapes: see :func:`transform_sizes`; every worker, or job, has buffers of its own.
+    shapes: see :func:`transform_sizes`. Attributes: `y`, `t`: sizes of Y and T. Every worker, or job, has its own buffers.
     """
 
     def __init__(self, shapes):
@@ -72,18 +82,22 @@ class Layout:
 
     @staticmethod
     def symbols(c):
+        """Number of entries of the symbols of one convolution."""
         return 3 * c.groups * (c.N // 2 + 1)
 
 
 class Symbols:
-    """Symbols of one convolution: A, B (N//2+1, M+1), strip (M+1,); mirrors: whether the first and the last row are; endless:
-    whether the outermost row continues for ever."""
+    """Symbols of one convolution: A, B (N//2+1, M+1), strip (M+1,).
+
+    shape: its TransformSize; mirrors: whether the first and the last row lie on a mirror; endless: whether the outermost row
+    continues for ever.
+    """
 
     def __init__(self, shape, A, B, strip, mirrors, endless):
         self.shape, self.A, self.B, self.strip, self.mirrors, self.endless = shape, A, B, strip, mirrors, endless
 
     def entries(self):
-        """Entries (., GROUP): A, Re B, Im B of group after group, then the strip; with the transforms' factors 1/M, 1/N."""
+        """Entries (n, GROUP): A, Re B, Im B of each group, then the strip; with the factors 1/M, 1/N of the transforms."""
         c = self.shape
         parts = np.zeros((3, c.N // 2 + 1, c.groups * GROUP))
         parts[:, :, : c.M + 1] = np.stack([self.A, self.B.real, self.B.imag]) / (c.M * c.N)
@@ -101,7 +115,7 @@ class Symbols:
 
 
 def deflection(shape, levels):
-    """K of the finest level."""
+    """Symbols of K on the finest level."""
     nx, ny, dx, dy = levels.grid(0)
     A, B = _deflection_symbols(nx, ny, dx, dy, levels.scales.compliance, levels.mirrored, 2 * shape.M, shape.N)
     strip = waves(influence.strip(nx, dx)[None, :], 2 * shape.M)[0] if levels.line else np.zeros(shape.M + 1)
@@ -110,6 +124,7 @@ def deflection(shape, levels):
 
 @functools.lru_cache(maxsize=2)  # a grid is solved in single and in double precision
 def _deflection_symbols(nx, ny, dx, dy, compliance, mirrored, period, N):
+    """(A, B) of the deflection on a grid."""
     if ny == 0:
         return (np.zeros((N // 2 + 1, period // 2 + 1)),) * 2
     t = waves(influence.rectangle(nx, 2 * ny, dx, dy, compliance).T, period)
@@ -120,7 +135,8 @@ def _deflection_symbols(nx, ny, dx, dy, compliance, mirrored, period, N):
 
 
 def distribution(shape, levels):
-    """K^-1 of the level, with mirrors at both ends (the further one beyond the grid where its number of rows is unwieldy)."""
+    """Symbols of K^-1 on a level, with mirrors at both ends of y (the far one beyond the grid if its number of rows has large
+    prime factors)."""
     nx, ny, dx, dy = levels.grid(shape.level)
     A = 1 / influence.symbol(2 * shape.M, shape.further if ny else 0, dx, dy, levels.scales.compliance)
     if ny == 0:
@@ -129,8 +145,10 @@ def distribution(shape, levels):
 
 
 def prepare(table, symbols, fields, lengths, dtype):
-    """Put what the convolutions of a :class:`Layout` need into its `table` and the first two of `fields`, Y and T. symbols: of
-    each; fields: all that the caller fills."""
+    """Write symbols and twiddle factors of the convolutions into the fields Y and T, and their flags into the table.
+
+    table, lengths: of a :class:`Layout`; symbols: of each convolution; fields: all fields that the caller fills, Y and T first.
+    """
     Y, T, *_ = fields
     simd.fill(*simd.one_of(fields, T), 0, 0, lengths.twiddles().astype(dtype))
     for row, one in zip(table, symbols):
@@ -139,11 +157,11 @@ def prepare(table, symbols, fields, lengths, dtype):
 
 
 def waves(coefficients, period):
-    """Real transforms along x of kernels of which the offsets 0 .. nx are given (rows, nx+1); even."""
+    """Real transforms (rows, period//2+1) along x of even kernels, given at offsets 0 .. nx: (rows, nx+1)."""
     rows, n2 = coefficients.shape
     out = np.zeros((rows, period))
     out[:, :n2] = coefficients
-    out[:, period - n2 + 1 :] = coefficients[:, :0:-1]  # with a period of twice the cells both ends are the same one
+    out[:, period - n2 + 1 :] = coefficients[:, :0:-1]  # offset nx is its own image for a period of 2 nx
     return np.fft.rfft(out, axis=1).real
 
 
@@ -155,25 +173,29 @@ def other(a, start, size):
 
 @ti.func
 def pair(G: ti.template(), l, j):
-    """Both blocks of pair j of level l: their first columns in the table of all levels, and how many they have. The last pair
-    may be one block twice: then what is done for the first counts, and is done last."""
+    """(first column of both blocks of pair j of level l in the table of all levels, number of their columns).
+
+    The last pair may be one block twice: then the work on the first one counts, and is done last.
+    """
     nx, ny, off = cells(G, l)
     return off + 2 * j * (nx + 1), off + ti.min(2 * j + 1, ny // W) * (nx + 1), nx + 1
 
 
 @ti.func
 def side_by_side(a, b):
-    """Lanes of two blocks as those of their pair."""
+    """Lanes of a pair from those of its two blocks."""
     return ti.Vector([a[u] for u in ti.static(range(W))] + [b[u] for u in ti.static(range(W))])
 
 
 @ti.func
 def first_of(pair):
+    """Lanes of the first block of a pair."""
     return ti.Vector([pair[u] for u in ti.static(range(W))])
 
 
 @ti.func
 def second_of(pair):
+    """Lanes of the second block of a pair."""
     return ti.Vector([pair[W + u] for u in ti.static(range(W))])
 
 
@@ -186,8 +208,8 @@ def clear(Y: ti.template(), first, end):
 
 @ti.func
 def split(Y: ti.template(), z, o, T: ti.template(), C: ti.template(), c):
-    """Real transforms at o, waves 0 .. M, from the complex ones at z of which even numbers are the real part, odd ones the
-    imaginary."""
+    """Real transforms (waves 0 .. M) at entry o from complex ones at z, whose real parts came from even columns, imaginary
+    parts from odd ones."""
     half, m, turns = ti.cast(0.5, Y.dtype), C[c, M], C[c, SPLIT]
     for k in range(m // 2 + 1):
         k1, k2 = m - k, (m - k) % m
@@ -215,7 +237,7 @@ def merge(Y: ti.template(), o, z, T: ti.template(), C: ti.template(), c):
 
 @ti.func
 def exchange(Y: ti.template(), o, C: ti.template(), c, j, way):
-    """Between the waves of pair j at o, rows in lanes, and the spectra, waves in lanes: GROUP vectors become as many others."""
+    """Transpose between the waves of pair j at o (rows in lanes) and the spectra (waves in lanes), GROUP vectors at a time."""
     step = C[c, STEP]
     first = C[c, SPECTRA] + j * GROUP * step
     for n in range(step):
@@ -230,13 +252,14 @@ def exchange(Y: ti.template(), o, C: ti.template(), c, j, way):
 
 @ti.func
 def buffer(C: ti.template(), w):
-    """First entry of the rows that worker w transforms."""
+    """First entry of the buffers of worker w in Y."""
     return C[0, WORK] + 2 * w * C[0, SIZE]
 
 
 @ti.func
 def load_waves(Y: ti.template(), C: ti.template(), c, e, a):
-    """Group of waves from entry e of the spectra to the buffer at a, less an endless outermost row, zero behind."""
+    """Copy a group of waves from entry e of the spectra to the buffer at a: an endless outermost row is subtracted, the rest of
+    the buffer is zero."""
     ny, step = C[c, NY], C[c, STEP]
     rest = ti.cast(C[c, ENDLESS], Y.dtype)
     lr, li = rest * Y[0, e + ny * step], rest * Y[0, e + ny * step + 1]
@@ -265,7 +288,7 @@ def multiply(Y: ti.template(), z, C: ti.template(), c, g):
 
 @ti.func
 def store_waves(Y: ti.template(), z, C: ti.template(), c, e, g):
-    """Store a group of waves back in the spectra, plus the answer of the strip to the outermost row."""
+    """Copy a group of waves from the buffer back to the spectra, plus the response of the strip to the outermost row."""
     ny, step, strip = C[c, NY], C[c, STEP], Y[0, C[c, STRIP] + g]
     lr, li = strip * Y[0, e + ny * step], strip * Y[0, e + ny * step + 1]
     for j in range(ny + 1):
@@ -274,8 +297,11 @@ def store_waves(Y: ti.template(), z, C: ti.template(), c, e, g):
 
 @ti.func
 def transformed(Y: ti.template(), T: ti.template(), Q: ti.template(), odd: ti.template(), C: ti.template(), c, j, w, way):
-    """Pair j of blocks, whose rows are in the buffer of worker w, to the spectra; group j of waves times the symbol; or pair j
-    from the spectra. Returns the first entry of its rows then."""
+    """One step of a convolution, in the buffers of worker w; returns the first entry of the result.
+
+    way THERE: rows of pair j of blocks to the spectra. ACROSS: group j of waves times the symbol. BACK: pair j from the
+    spectra.
+    """
     a, size, row, rows = buffer(C, w), C[c, SIZE], C[c, X_ROW], C[c, X_ROWS]
     z, o, e = a, a, C[c, SPECTRA] + 2 * j
     for half in range(2):  # so that `exchange`, a fifth of the code, stands here once

@@ -1,7 +1,7 @@
-"""The linear solve of a Newton step as Newton sees it: `solve(rhs)` returns a correction.
+"""Interface between Newton and the linear solve: `solve(rhs)` returns a correction.
 
-Newton knows nothing else of this folder. A second implementation (for graphics cards, say) is a class with this method, which
-:class:`tehl_taichi.pressure.newton.PressureSolver` takes as `linear`.
+Newton uses nothing else of this folder. An implementation is a class with this method, which
+:class:`tehl_taichi.pressure.newton.PressureSolver` takes as `linear`: `multigrid_gmres` (processors), `cells` (graphics cards).
 """
 
 from dataclasses import dataclass
@@ -17,13 +17,14 @@ class RightHandSide:
     rows : (levels.n,) of type levels.linear
         Right-hand side of the scaled rows (row scale: ``fields.SCALE``), in the order of the table.
     outflow : (levels.n,) of type levels.linear
-        Weight of each scaled row in the net outflow. A multiple of the outflow that is left belongs to the residual.
+        Weight of each scaled row in the net outflow. The residual contains a multiple of the remaining outflow.
     load : float or None
-        Right-hand side of the load equation, ``sum(fields.WEIGHT * correction of P) = load``. None: there is none, H0 stays.
+        Right-hand side of the load equation, ``sum(fields.WEIGHT * correction of P) = load``. None: no such equation, H0 is
+        fixed.
     tolerance : float
         Norm of the residual to reach, relative to the norm of the right-hand side.
     change : float
-        Largest change of P since the previous solve, inf where that was another problem. Factors of a near problem may be kept.
+        Largest change of P since the previous solve; inf if that was another problem. After a small change factors may be kept.
     """
 
     rows: NDArray[Any]
@@ -35,7 +36,15 @@ class RightHandSide:
 
 @dataclass(frozen=True)
 class Correction:
-    """pressure: of P at every node, in the order of the table (levels.n,); approach: of H0; iterations: that it took."""
+    """Solution of a linear solve.
+
+    pressure : (levels.n,)
+        Change of P at every node, in the order of the table.
+    approach : float
+        Change of H0.
+    iterations : int
+        Number of iterations.
+    """
 
     pressure: NDArray[Any]
     approach: float
@@ -46,6 +55,9 @@ class LinearSolver(Protocol):
     """Solves the linearised problem of one :class:`tehl_taichi.pressure.levels.Levels`."""
 
     def solve(self, rhs: RightHandSide) -> Correction:
-        """Correction that solves the rows, the load equation and the net outflow to ``rhs.tolerance``, or as far as iterations
-        go. Raises numpy.linalg.LinAlgError where the problem has no inverse."""
+        """Return the Correction that solves the rows, the load equation and the net outflow to ``rhs.tolerance``.
+
+        It has a larger residual if the largest number of iterations does not suffice. Raises numpy.linalg.LinAlgError for a
+        singular problem.
+        """
         ...

@@ -1,29 +1,35 @@
 """Line solver along x: one small banded system (7 diagonals) per row, W rows per lane vector, all blocks at once.
 
-Two kinds of columns. Where the Poiseuille part is strong a node is changed by itself ("Gauss-Seidel" column: the local
-part of the deflection kernel is in the matrix). In the high-pressure zone eps is about 1e-10 and the equation is pure
-transport of rho H: there the unknown is distributed with K^-1 (symbol |k|, one unpadded FFT), so that its film change is
-a unit at one node and the rows become banded transport.
+Columns are of two kinds. A local column ("Gauss-Seidel") changes the pressure of one node: where the Poiseuille flow is strong,
+with the local part of the deflection kernel in the matrix. A distributed column changes the film of one node: in the
+high-pressure zone eps is about 1e-10 and the equation is pure transport of rho H. There the change of pressure is K^-1 (symbol
+|k|, one unpadded FFT) of a unit change of the film, so the rows are banded transport.
 """
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.simd import Blocks, L, LinearTable, Table, V, W, above, below, cells, neighbour_masks
 from tehl_taichi.pressure.fields import AD, AU, BAND, CT, DRY, DX, EPS, FRAME, JN, K0, KIND, RES, SOL, STENCIL, TOUCH, A, B
 
-HALF = 3  # half bandwidth; 2 converges slower, 1 diverges, 4..6 gain nothing
+HALF = 3  # half bandwidth; 2 converges more slowly, 1 diverges, 4 to 6 gain nothing
 TINY_PIVOT = 1e-14
-REACH = HALF + 3  # distances at which a column of the band meets the stencil
-NEAR = 8  # distances in the tables of those
+REACH = HALF + 3  # number of distances between a column of the band and the nodes of the stencil
+NEAR = 8  # distances in the tables of the kernels
 DRY_KIND, LOCAL, DISTRIBUTED = 0.0, 1.0, 2.0  # values of KIND
 
 
 @ti.func
 def is_kind(J: ti.template(), k, kind: ti.template()):
+    """Whether nodes of column k have this kind, lane by lane."""
     return J[KIND, k] == L(J, kind)
 
 
 @ti.func
 def kind_of(S: ti.template(), J: ti.template(), G: ti.template(), l, k, n2, i, up, down, rest, narrow, wide):
+    """Kinds of the nodes of column k (i: its number along x).
+
+    Local are nodes with strong Poiseuille flow, with a dry neighbour, or beside an end of the grid; touching nodes are
+    distributed.
+    """
     dry = S[DRY, k - 1] + S[DRY, k + 1] + up * above(S, DRY, k, n2) + down * below(S, DRY, k, n2)
     bound = G[l, K0] * (rest * (1.0 - G[l, FRAME]) + (narrow + wide / G[l, DX]) * G[l, CT])
     if i == 1 or i == n2 - 2:
@@ -37,10 +43,10 @@ def kind_of(S: ti.template(), J: ti.template(), G: ti.template(), l, k, n2, i, u
 @ti.kernel
 def classify(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, rest: ti.f64, narrow: ti.f64, wide: ti.f64,
              alone: ti.template()):
-    """KIND of every node in the blocks.
+    """Set KIND of every node in the blocks.
 
-    rest, narrow, wide: of what the film carries, and stores within so many cells and half-widths, beyond which the pressure
-    drives it and lines solve for that.
+    A node is local if its Poiseuille coefficient EPS exceeds a bound with two parts: `rest` times the transport through the
+    grid, and the storage in time over `narrow` cells and `wide` half-widths.
     """
     ti.loop_config(block_dim=1, serialize=alone)
     for b in range(blocks.shape[0]):
@@ -55,7 +61,7 @@ def classify(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, rest:
 
 @ti.func
 def gauss_seidel_entry(J: ti.template(), k, dk: ti.template(), near: ti.template(), rim: ti.template(), outer):
-    """Row k, column k + dk: a unit pressure there and the film change it causes nearby."""
+    """Matrix entry of row k and local column k + dk: a unit pressure there, and the film change that it causes nearby."""
     v = L(J, 0.0)
     for t in ti.static(range(-2, 2)):
         v += J[B[t + 2], k] * (near[abs(t - dk)] + outer * rim[abs(t - dk)])
@@ -66,7 +72,7 @@ def gauss_seidel_entry(J: ti.template(), k, dk: ti.template(), near: ti.template
 
 @ti.func
 def distributed_entry(J: ti.template(), k, dk: ti.template(), inverse: ti.template(), beside: ti.template()):
-    """Row k, column k + dk: a unit film change there and the pressure that makes it."""
+    """Matrix entry of row k and distributed column k + dk: a unit film change there, and the pressure that causes it."""
     v = (J[AU, k] + J[AD, k]) * beside[abs(dk)]
     for t in ti.static(range(-2, 2)):
         v += J[A[t + 2], k] * inverse[abs(t - dk)]
@@ -78,7 +84,7 @@ def distributed_entry(J: ti.template(), k, dk: ti.template(), inverse: ti.templa
 @ti.func
 def fill_row(J: ti.template(), k, i, nx, near: ti.template(), rim: ti.template(), inverse: ti.template(),
              beside: ti.template(), outer):
-    """The seven entries of one node; columns without an unknown stay empty, dry rows are the identity."""
+    """Write the seven entries of a node's row; columns without an unknown are 0, rows of dry nodes are the identity."""
     dry = is_kind(J, k, DRY_KIND)
     for b in ti.static(range(2 * HALF + 1)):
         v = ti.select(is_kind(J, k + b - HALF, LOCAL), gauss_seidel_entry(J, k, b - HALF, near, rim, outer),
@@ -100,15 +106,16 @@ def row_of(table: ti.template(), n):
 
 @ti.func
 def reciprocal(J: ti.template(), pivot):
+    """1/pivot, with the pivot at least TINY_PIVOT."""
     return L(J, 1.0) / ti.select(ti.abs(pivot) < L(J, TINY_PIVOT), L(J, TINY_PIVOT), pivot)
 
 
 @ti.func
 def factorise(J: ti.template(), first, n2):
-    """LU by rows without pivoting, in place; the diagonal keeps the reciprocal of the pivot.
+    """LU factors by rows without pivoting, in place; the diagonal holds the reciprocal of the pivot.
 
-    The three rows above stay in registers (r = a, b, c: nearest first; their upper part and reciprocal pivot): with
-    columns eliminated in the table instead it takes twelve times as long.
+    The three rows above stay in registers (a, b, c: nearest first; upper part and reciprocal pivot of each). Elimination of
+    columns in the table takes twelve times as long.
     """
     a4, a5, a6, a_inv = L(J, 0.0), L(J, 0.0), L(J, 0.0), L(J, 0.0)
     b4, b5, b6, b_inv = L(J, 0.0), L(J, 0.0), L(J, 0.0), L(J, 0.0)
@@ -131,10 +138,11 @@ def factorise(J: ti.template(), first, n2):
 @ti.kernel
 def build_lines(J: ti.template(), G: Table, blocks: Blocks, count: ti.i32, near: LinearTable, inverse: LinearTable,
                 alone: ti.template()):
-    """Fill and factorise the bands of the first `count` blocks; needs `classify`.
+    """Fill and factorise the bands of the first `count` blocks, after `classify`.
 
-    near[2 l + (0 or 1), m]: deflection at distance m in x on level l (1: the outermost row of a line contact, which
-    continues to infinity); inverse[2 l + (0 or 1), m]: pressure of a unit film change, in its own and in the next row.
+    near[2 l, m]: deflection at distance m along x on level l by a unit pressure; near[2 l + 1, m]: for the outermost row of a
+    line contact, which continues to infinity. inverse[2 l, m], inverse[2 l + 1, m]: pressure in the own and in the next row by
+    a unit film change.
     """
     ti.loop_config(block_dim=1, serialize=alone)
     for b in range(count):
@@ -154,7 +162,7 @@ def build_lines(J: ti.template(), G: Table, blocks: Blocks, count: ti.i32, near:
 
 @ti.func
 def substitute(J: ti.template(), first, n2):
-    """SOL from RES of one block."""
+    """Solve for SOL of one block, with RES as right-hand side."""
     y1, y2, y3 = L(J, 0.0), L(J, 0.0), L(J, 0.0)
     for i in range(n2):
         k = first + i
@@ -171,7 +179,7 @@ def substitute(J: ti.template(), first, n2):
 
 @ti.kernel
 def export_rows(J: ti.template(), G: Table, l: ti.i32, out: LinearTable, alone: ti.template()):
-    """out[row of the stencil, node j (NX + 1) + i] = Jacobian rows of level l."""
+    """Copy the Jacobian rows of level l: out[row of the stencil, node j (nx + 1) + i]."""
     nx, ny, off = cells(G, l)
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):

@@ -12,7 +12,7 @@ SAME_COARSEST = 0.05  # change of P/p_H up to which the inverse of the coarsest 
 
 
 class MultigridGmres:
-    """The :class:`tehl_taichi.pressure.linear.interface.LinearSolver` of processors."""
+    """The :class:`tehl_taichi.pressure.linear.interface.LinearSolver` for processors; levels: the Levels with the problem."""
 
     def __init__(self, levels):
         self.krylov = Krylov(levels)

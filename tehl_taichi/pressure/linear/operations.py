@@ -1,4 +1,4 @@
-"""Operations of a linear solve, each job on one block of lanes or one group of waves; see :mod:`schedule`."""
+"""Operations of a linear solve. A job is an operation on one block of W rows, or on one group of waves; see :mod:`schedule`."""
 
 import itertools
 
@@ -33,21 +33,25 @@ from tehl_taichi.pressure.linear.schedule import (
 from tehl_taichi.pressure.linear.transfer import prolong_block, restrict_block
 from tehl_taichi.pressure.reynolds import reynolds_row
 
-COARSE_WEIGHT = 0.8  # of the coarser levels' sum: 30.1 Krylov iterations a step with 0.5, 22.9 with 0.8, 24.3 with 1 (256x64)
-AT_ONCE = 4  # vectors of the basis that a loop over a block adds up
+# weight of the correction of the coarser levels. Krylov iterations per step on 256x64 cells: 30.1 with 0.5, 22.9 with 0.8, 24.3
+# with 1
+COARSE_WEIGHT = 0.8
+AT_ONCE = 4  # vectors of the basis in one loop over a block
 _row = itertools.count()
-LIFTED, OUTFLOW, LOADING, BASIS = (next(_row) for _ in range(4))  # rows of the table of vectors: answer to a change of H0,
-# weights of the rows in the net outflow, of the pressure in the load; the basis, then what the preconditioner makes of it
+# rows of the table of vectors: the preconditioner's answer to a change of H0, weights of the rows in the net outflow, weights
+# of the pressure in the load; first vector of the basis, after which the preconditioned vectors follow
+LIFTED, OUTFLOW, LOADING, BASIS = (next(_row) for _ in range(4))
 
 
 @ti.func
 def sum_of(v):
+    """Sum of the lanes, in double precision."""
     return ti.cast(v.sum(), ti.f64)
 
 
 @ti.func
 def start(F: ti.template(), G: ti.template(), partial: ti.template(), s, right: ti.template(), outflow: ti.template()):
-    """First vector of the basis and right-hand side of the preconditioner, from the rows `right` (scaled)."""
+    """Set the first vector of the basis and the right-hand side of the preconditioner from the scaled rows `right`."""
     first, end, off = block(G, s)
     squares = L(F.J, 0.0)
     for q in range(first, end):
@@ -59,7 +63,7 @@ def start(F: ti.template(), G: ti.template(), partial: ti.template(), s, right: 
 
 @ti.func
 def ones(F: ti.template(), G: ti.template(), s):
-    """RES = rows of the Jacobian for a film change of 1 everywhere."""
+    """RES = rows of the Jacobian times a film change of 1 everywhere."""
     first, end, off = block(G, s)
     for k in range(off + first, off + end):
         out = F.J[BU, k] + F.J[BD, k]
@@ -70,7 +74,7 @@ def ones(F: ti.template(), G: ti.template(), s):
 
 @ti.func
 def dense(F: ti.template(), G: ti.template(), l, s):
-    """COR of block s of the coarsest level: rows of its inverse, in the field D, times RES."""
+    """COR of block s of the coarsest level: rows of its inverse (field D) times RES."""
     nx, ny, off = cells(G, l)
     columns = (ny // W + 1) * (nx + 1)
     for q in range(s * (nx + 1), (s + 1) * (nx + 1)):
@@ -84,7 +88,7 @@ def dense(F: ti.template(), G: ti.template(), l, s):
 
 @ti.func
 def finest(F: ti.template(), G: ti.template(), partial: ti.template(), coarser, s):
-    """COR of the finest level, complete, and its load."""
+    """Add the coarser levels (if any) to COR of the finest level; sum up its load."""
     if coarser > 0:
         prolong_block(F.J, G, 0, s, COARSE_WEIGHT)
     first, end, off = block(G, s)
@@ -96,7 +100,7 @@ def finest(F: ti.template(), G: ti.template(), partial: ti.template(), coarser, 
 
 @ti.func
 def lift(F: ti.template(), G: ti.template(), partial: ti.template(), s):
-    """Keep the answer to a change of H0, where wet."""
+    """Keep the preconditioner's answer to a change of H0 (0 at dry nodes), and its load."""
     first, end, off = block(G, s)
     load = L(F.J, 0.0)
     for q in range(first, end):
@@ -108,12 +112,13 @@ def lift(F: ti.template(), G: ti.template(), partial: ti.template(), s):
 
 @ti.func
 def distributed_part(F: ti.template(), k):
+    """SOL of column k where the unknown is distributed, else 0."""
     return ti.select(is_kind(F.J, k, DISTRIBUTED), F.J[SOL, k], L(F.J, 0.0))
 
 
 @ti.func
 def distributed(F: ti.template(), C: ti.template(), G: ti.template(), c, j, w, operation):
-    """Line solutions of a pair, of one colour or of both; the rows of their distributed part."""
+    """Solve the lines of a pair of blocks (of one colour, or all) and write their distributed part to the buffer."""
     first, second, n2 = pair(G, C[c, LEVEL], j)
     a, period = buffer(C, w), 2 * C[c, M]
     for h in range(2 if second > first else 1):
@@ -128,7 +133,7 @@ def distributed(F: ti.template(), C: ti.template(), G: ti.template(), c, j, w, o
 
 @ti.func
 def change(F: ti.template(), off, k, n, scale, rise):
-    """Vector k of the newest direction, which is number n among those before: bordered correction of the finest level."""
+    """Column k of the newest direction, row n of the vectors: correction of the finest level with the border (change of H0)."""
     z = F.J[COR, k] * scale - rise * F.V[LIFTED, k - off]
     F.V[n, k - off], F.J[TRIAL, k] = z, z
     return z
@@ -136,7 +141,7 @@ def change(F: ti.template(), off, k, n, scale, rise):
 
 @ti.func
 def changes(F: ti.template(), C: ti.template(), G: ti.template(), N: ti.template(), j, w, most):
-    """Newest direction; its rows."""
+    """Compute the newest direction of a pair of blocks and write it to the buffer."""
     first, second, n2 = pair(G, 0, j)
     off = cells(G, 0)[2]
     k, a = ti.cast(N[SCALARS, COUNT], ti.i32), buffer(C, w)
@@ -149,7 +154,7 @@ def changes(F: ti.template(), C: ti.template(), G: ti.template(), N: ti.template
 
 @ti.func
 def given(F: ti.template(), C: ti.template(), G: ti.template(), j, w, right: ti.template()):
-    """A given direction."""
+    """Take a given direction `right` of a pair of blocks, and write it to the buffer."""
     first, second, n2 = pair(G, 0, j)
     a, off = buffer(C, w), cells(G, 0)[2]
     for i in range(n2):
@@ -159,14 +164,14 @@ def given(F: ti.template(), C: ti.template(), G: ti.template(), j, w, right: ti.
 
 @ti.func
 def corrected(F: ti.template(), k, far):
-    """COR: K^-1 of the distributed part, the line solution elsewhere, RES where dry."""
+    """COR of column k: `far` (K^-1 of the distributed part), the line solution at local nodes, RES at dry nodes."""
     z = ti.select(is_kind(F.J, k, LOCAL), F.J[SOL, k], far)
     F.J[COR, k] = ti.select(is_kind(F.J, k, DRY_KIND), F.J[RES, k], z)
 
 
 @ti.func
 def collect(F: ti.template(), C: ti.template(), G: ti.template(), c, j, x):
-    """COR of a pair from the rows at x."""
+    """COR of a pair of blocks from the rows that begin at entry x of Y."""
     first, second, n2 = pair(G, C[c, LEVEL], j)
     for i in range(n2):
         far = F.Y[0, x + (i if i < 2 * C[c, M] else i - 2 * C[c, M])]
@@ -176,7 +181,7 @@ def collect(F: ti.template(), C: ti.template(), G: ti.template(), c, j, x):
 
 @ti.func
 def film(F: ti.template(), G: ti.template(), j, x, change):
-    """FILM of a pair from the rows at x, and a change of H0."""
+    """FILM of a pair of blocks from the rows that begin at entry x of Y, plus a `change` of H0."""
     first, second, n2 = pair(G, 0, j)
     rise = L(F.J, change)
     for i in range(n2):
@@ -187,7 +192,7 @@ def film(F: ti.template(), G: ti.template(), j, x, change):
 
 @ti.func
 def rows(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.template(), s):
-    """Next vector of the basis: scaled rows of the Jacobian times the direction."""
+    """Compute the next vector of the basis: scaled rows of the Jacobian times the direction."""
     first, end, off = block(G, s)
     n2, new = end - first, BASIS + ti.cast(N[SCALARS, COUNT], ti.i32) + 1
     squares, mass = L(F.J, 0.0), L(F.J, 0.0)
@@ -201,7 +206,7 @@ def rows(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.templ
 
 @ti.func
 def dots(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.template(), s):
-    """Products of the newest vector with those before; AT_ONCE of them, surplus products are ignored."""
+    """Products of the newest vector with all before it, AT_ONCE in a loop; surplus products are ignored."""
     first, end, off = block(G, s)
     k = ti.cast(N[SCALARS, COUNT], ti.i32)
     for n in range((k + AT_ONCE) // AT_ONCE):
@@ -217,12 +222,13 @@ def dots(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.templ
 
 @ti.func
 def weight(F: ti.template(), N: ti.template(), i, count):
+    """Weight of vector i, 0 from `count` on."""
     return number(F, N[WEIGHTS, i]) if i < count else number(F, 0.0)
 
 
 @ti.func
 def update(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.template(), s):
-    """Newest vector less its components along the basis; the preconditioner's next right-hand side."""
+    """Subtract the components along the basis from the newest vector, and set the preconditioner's next right-hand side."""
     first, end, off = block(G, s)
     count = ti.cast(N[SCALARS, COUNT], ti.i32) + 1
     new = BASIS + count
@@ -244,7 +250,7 @@ def update(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.tem
 
 @ti.func
 def finish(F: ti.template(), G: ti.template(), N: ti.template(), s, most, out: ti.template()):
-    """The solution."""
+    """Write the solution to `out`."""
     first, end, off = block(G, s)
     for q in range(first, end):
         x = L(F.J, 0.0)
@@ -255,7 +261,7 @@ def finish(F: ti.template(), G: ti.template(), N: ti.template(), s, most, out: t
 
 @ti.func
 def copy(F: ti.template(), G: ti.template(), N: ti.template(), s, out: ti.template()):
-    """The newest vector."""
+    """Write the newest vector to `out`."""
     first, end, off = block(G, s)
     for q in range(first, end):
         lanes_out(out, q, F.V[BASIS + ti.cast(N[SCALARS, COUNT], ti.i32) + 1, q])
@@ -264,7 +270,7 @@ def copy(F: ti.template(), G: ti.template(), N: ti.template(), s, out: ti.templa
 @ti.func
 def transformed(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.template(), N: ti.template(), operation, c, j, w,
                 most, right: ti.template()):
-    """The transforms, with the work before and after them."""
+    """Do the transforms of an operation, with the work before and after them."""
     way = convolution.THERE
     if operation == ACROSS:
         way = convolution.ACROSS
@@ -289,7 +295,7 @@ def transformed(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.temp
 @ti.func
 def vectors(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.template(), operation, a, s, most,
             right: ti.template(), outflow: ti.template(), out: ti.template()):
-    """Vector operations on the blocks of the finest level."""
+    """Do a vector operation on block s of the finest level."""
     if operation == START:
         start(F, G, partial, s, right, outflow)
     elif operation == FINEST:
@@ -319,7 +325,7 @@ def vectors(F: ti.template(), G: ti.template(), N: ti.template(), partial: ti.te
 @ti.func
 def work(F: ti.template(), G: ti.template(), C: ti.template(), Q: ti.template(), N: ti.template(), partial: ti.template(),
          operation, a, s, w, most, right: ti.template(), outflow: ti.template(), out: ti.template()):
-    """One job, by worker w."""
+    """Do one job (operation, a: level or convolution, s: block, pair or group), as worker w."""
     if operation == RESTRICT:
         restrict_block(F.J, G, a, s)
     elif operation == PROLONG:

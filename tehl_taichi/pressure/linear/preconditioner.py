@@ -1,7 +1,7 @@
 """Additive line multigrid: one parallel line solve on every second level, summed from coarse to fine.
 
-Inside a Krylov method one undamped parallel sweep per level beats alternating colours and V cycles per transform
-(measured: 6-8 iterations a Newton step at any grid, load and contact); it must be rebuilt at every Newton step.
+Inside a Krylov method one undamped parallel sweep per level needs less time than alternating colours or V cycles (6 to 8
+iterations per Newton step at any grid, load and contact). It must be rebuilt at every Newton step.
 """
 
 import numpy as np
@@ -12,22 +12,25 @@ from tehl_taichi.pressure import fields, influence
 from tehl_taichi.pressure.levels import HEAVY
 from tehl_taichi.pressure.linear import line_solver
 
-# Switch between the two kinds of columns where time passes, in cells and in half-widths. Krylov iterations a step with 0,
-# 0.5 / 1 / 2 / 4, gear at SRR -0.12: whole passages on 128 columns 14.3 / 14.2 / 14.2 / 14.5, on 256 - / - / 13.3 / 13.4,
-# on 512 - / - / 15.3 / 15.4; the feature coming in, on 512 15.9 / 13.9 / 12.1 / 12.2, on 1024 - / 25 / 21 / 18 (with 6 18).
-# With 30 cells instead (until the exact flow, which is stronger along the lines than across them) 14.2, 15.9, 22.7; 17.6,
-# 27. One row, a ridge that leaves on 1024 columns: with 30 cells 12.5, with half-widths 0.25 26
+# Bounds between local and distributed columns in time steps: (cells, half-widths) of the storage of the film, for one row and
+# for several. Krylov iterations per step of the gear at SRR -0.12 with 0.5 / 1 / 2 / 4 half-widths: whole passages on 128
+# columns 14.3 / 14.2 / 14.2 / 14.5, on 256 - / - / 13.3 / 13.4, on 512 - / - / 15.3 / 15.4; the entry of the feature on 512
+# columns 15.9 / 13.9 / 12.1 / 12.2, on 1024 - / 25 / 21 / 18 (18 with 6). With 30 cells: 14.2, 15.9, 22.7 for passages, 17.6
+# and 27 for the entry. One row, a ridge that leaves the contact, 1024 columns: 12.5 with 30 cells, 26 with 0.25 half-widths
 STORED_LINE = 30.0, 0.0
 STORED = 0.0, 4.0
-# At rest, of one row and of several. Krylov iterations on the finest grid of steady point contacts, 0.5 / 2 / 4 / 8 / 16 / 32:
-# 18 on 128 and 256 columns 1345 / 1156 / 1085 / 1127 / 1201 / -, 5 on 512 columns 396 / 315 / 289 / 311 / 289 / 288. One row:
-# with 2 starts on 2048 columns do not converge
+# The bound of steady starts, for one row and for several. Sum of Krylov iterations on the finest grid of steady point contacts
+# with 0.5 / 2 / 4 / 8 / 16 / 32: 18 contacts on 128 and 256 columns 1345 / 1156 / 1085 / 1127 / 1201 / -, 5 contacts on 512
+# columns 396 / 315 / 289 / 311 / 289 / 288. One row: with 2 the starts on 2048 columns do not converge
 REST_LINE, REST = 0.5, 8.0
 
 
 class AdditiveLines:
-    """Prepares M^-1 of the linearised problem in the tables of `levels` (see :class:`Levels`) for `solver` (see
-    :class:`Krylov`), which applies it."""
+    """Preparation of the preconditioner M^-1.
+
+    levels: :class:`tehl_taichi.pressure.levels.Levels` with the linearised problem; krylov: the Krylov solver that applies
+    M^-1.
+    """
 
     def __init__(self, levels, krylov):
         self.levels = levels
@@ -47,7 +50,7 @@ class AdditiveLines:
                                      work=HEAVY)
 
     def build(self, coarsest=True):
-        """Factorise every level, which must be linearised; coarsest: that one too."""
+        """Factorise the lines of every level (after the linearisation); coarsest: also invert the coarsest level."""
         self._classify()
         self._build_lines()
         if self.coarsest and coarsest:
@@ -55,7 +58,7 @@ class AdditiveLines:
 
 
 class Coarsest:
-    """The coarsest level as a dense matrix: its Jacobian with the full deflection, inverted at every Newton step."""
+    """The coarsest level as a dense matrix: its Jacobian with the full deflection, and its inverse."""
 
     def __init__(self, levels, krylov):
         self.krylov, self.l = krylov, len(levels.sizes) - 1
@@ -69,11 +72,12 @@ class Coarsest:
         self._export = bind(line_solver.export_rows, levels.J, levels.G, self.l, self.rows, True)
 
     def _neighbours(self, i, j, nx, ny):
-        """Node numbers of i-2, i-1, i, i+1, j+1, j-1; those outside have no weight."""
+        """Node numbers at i-2, i-1, i, i+1, j+1, j-1, moved inside the grid (outside the rows have no weight)."""
         steps = ((-2, 0), (-1, 0), (0, 0), (1, 0), (0, 1), (0, -1))
         return [np.clip(j + q, 0, ny) * (nx + 1) + np.clip(i + p, 0, nx) for p, q in steps]
 
     def build(self):
+        """Invert the level for the Krylov solver. Raises numpy.linalg.LinAlgError for a singular matrix."""
         self._export()
         half, nodes = len(fields.STENCIL) // 2, np.arange(self.place.size)
         J = np.einsum("qn,qnm->nm", self.rows[half:], self.influence)

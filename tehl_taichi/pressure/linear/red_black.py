@@ -1,6 +1,6 @@
-"""Lines of the finest level in two colours (numerics.sweep = "red-black"): the second one has what the first one leaves.
+"""Lines of the finest level in two colours (numerics.sweep = "red-black"): the second colour solves for the remaining residual.
 
-Slower than all lines at once, see docs/decisions/05.
+Slower than all lines together, see docs/decisions/05.
 """
 
 from tehl_taichi.engine.language import ti
@@ -15,8 +15,10 @@ RED, BLACK, SPREAD, BENT, LEFT, ADDED = range(18, 24)  # operations, beside thos
 
 
 def second_colour(program, collect, on, decision):
-    """Phases of the other lines, with the film that the first ones leave; collect: the operation that gathers corrections;
-    on, decision: between the phases, and after the last one."""
+    """Add the phases of the second colour to a program.
+
+    collect: operation that gathers corrections; on, decision: decisions between the phases, and after the last one.
+    """
     program._deflected(SPREAD, on, BENT, LEFT)
     program._phase(program._pairs(BLACK, 1))
     program._phase(program._groups(1))
@@ -26,7 +28,7 @@ def second_colour(program, collect, on, decision):
 
 @ti.func
 def keep_colour(F: ti.template(), first, n2, operation):
-    """SOL of the lines of the other colour is nothing: of every second row."""
+    """Set SOL to 0 in the rows of the other colour (every second row)."""
     kept = L(F.J, 0.0)
     for u in ti.static(range(W)):
         kept[u] = number(F, float((operation == RED) == (u % 2 == 0)))
@@ -36,7 +38,7 @@ def keep_colour(F: ti.template(), first, n2, operation):
 
 @ti.func
 def spread(F: ti.template(), C: ti.template(), G: ti.template(), j, w):
-    """The correction so far as a direction."""
+    """Take the present correction of a pair of blocks as a direction, and write it to the buffer."""
     first, second, n2 = pair(G, 0, j)
     a = buffer(C, w)
     for i in range(n2):
@@ -54,7 +56,7 @@ def left(F: ti.template(), G: ti.template(), s):
 
 @ti.func
 def add_first_colour(F: ti.template(), G: ti.template(), s):
-    """COR of both colours."""
+    """Add the correction of the first colour to COR."""
     first, end, off = block(G, s)
     for k in range(off + first, off + end):
         F.J[COR, k] = F.J[COR, k] + F.J[TRIAL, k]

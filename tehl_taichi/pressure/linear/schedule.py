@@ -1,7 +1,7 @@
 """Order of the linear solve: phases of jobs, as tables that the kernel of :mod:`solver` reads.
 
-A job is (operation, level or convolution, block, pair of blocks or group of waves); a phase is a number of jobs that may be
-done at once, and what is decided when all are done.
+A job is (operation, number of a level or convolution, number of a block, pair of blocks or group of waves). A phase is a set of
+jobs that can run in parallel, with a decision after the last one.
 """
 
 import numpy as np
@@ -14,13 +14,15 @@ from tehl_taichi.pressure.linear import red_black
  COPY) = range(18)
 # decisions, see :mod:`gmres`
 ON, BEGIN, BORDER, PROJECT, EXTEND, EXTEND_AGAIN, LIFTED, END = range(8)
-FIRST_JOB, JOBS, DECISION, LOOP, LEAVE = range(5)  # columns of a phase; LOOP, LEAVE: the phases of a next iteration, of the end
+FIRST_JOB, JOBS, DECISION, LOOP, LEAVE = range(5)  # columns of the table of phases; LOOP, LEAVE: next phases after an
+# iteration and at the end
 
 
 class Program:
-    """`phases` and `jobs`; `solve`, `lift`, `apply`: first phases of the three things that can be done.
+    """Tables of the phases and jobs; `solve`, `lift`, `apply`: first phases of the three programs.
 
-    levels: see :class:`Levels`; shapes: of its convolutions, the deflection first.
+    levels: :class:`tehl_taichi.pressure.levels.Levels`; shapes: list of the TransformSize of its convolutions, deflection
+    first.
     """
 
     def __init__(self, levels, shapes):
@@ -32,17 +34,18 @@ class Program:
         self.jobs, self.phases = np.array(self._jobs, np.int32), np.array(self._phases, np.int32)
 
     def _phase(self, jobs, decision=ON):
-        """Number of a new phase."""
+        """Add a phase; return its number."""
         first = len(self._jobs)
         self._jobs.extend(jobs)
         self._phases.append([first, len(self._jobs) - first, decision, 0, 0])
         return len(self._phases) - 1
 
     def _fine(self, operation, decision=ON):
+        """Add a phase with a job for every block of the finest level; return its number."""
         return self._phase(self._blocks(operation, 0), decision)
 
     def _blocks(self, operation, l, name=None):
-        """A job for every block of level l, called by that or by `name`."""
+        """A job for every block of level l; name: number in the job in place of l."""
         return [(operation, l if name is None else name, s) for s in range(self.levels.sizes[l][1] // W + 1)]
 
     def _pairs(self, operation, *convolutions):
@@ -50,10 +53,11 @@ class Program:
         return [(operation, c, j) for c in convolutions for j in range(self.shapes[c].pairs)]
 
     def _groups(self, *convolutions):
+        """A job for every group of waves of the convolutions."""
         return [(ACROSS, c, g) for c in convolutions for g in range(self.shapes[c].groups)]
 
     def _solve(self):
-        """FGMRES; the projection is repeated where it cancels."""
+        """Add FGMRES, with a second projection if the first one cancels; return the first phase."""
         first = self._fine(START, BEGIN)
         loop = self._precondition(BORDER)
         self._deflected(FORWARD, PROJECT)
@@ -64,20 +68,20 @@ class Program:
         return first
 
     def _lift(self):
-        """Answer of the preconditioner to a change of H0."""
+        """Add the preconditioner's answer to a change of H0; return the first phase."""
         first = self._fine(ONES)
         self._precondition(ON)
         self._fine(LIFT, LIFTED)
         return first
 
     def _apply(self):
-        """Jacobian times a change of the pressure."""
+        """Add the product of the Jacobian with a given change of the pressure; return the first phase."""
         first = self._deflected(GIVEN, ON)
         self._fine(COPY, END)
         return first
 
     def _precondition(self, decision):
-        """RES of the finest level -> COR. Returns the first phase."""
+        """Add the preconditioner, from RES of the finest level to COR; return the first phase."""
         first, sizes = len(self._phases), self.levels.sizes
         for l in range(len(sizes) - 1):
             self._phase([(RESTRICT, l, s) for _, _, s in self._blocks(RESTRICT, l + 1)])
@@ -94,7 +98,7 @@ class Program:
         return first
 
     def _deflected(self, source, decision, back=BACK, rows=ROWS):
-        """Change of the pressure -> rows of the Jacobian. Returns the first phase."""
+        """Add the product of the Jacobian with the change of pressure of `source`; return the first phase."""
         first = self._phase(self._pairs(source, 0))
         self._phase(self._groups(0))
         self._phase(self._pairs(back, 0))

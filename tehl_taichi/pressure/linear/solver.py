@@ -16,19 +16,22 @@ from tehl_taichi.pressure.linear import convolution, gmres, operations
 from tehl_taichi.pressure.linear.gmres import SCALARS
 from tehl_taichi.pressure.linear.schedule import DECISION, FIRST_JOB, JOBS, Program
 
-# vectors of lanes that the iterations of one launch go through, each some 0.25 us on one core: while a kernel runs, Python does
-# not see Ctrl-C, nor do other threads of Python get on
+# lane vectors that the iterations of one launch process (about 0.25 us each on one core): while a kernel runs, Python cannot
+# handle Ctrl-C, and its other threads wait
 PORTION = 500_000
-SMALLEST = 80_000  # entries of the fields D and Y: all grids up to 256x64, and their starts, share one compiled kernel
+SMALLEST = 80_000  # least entries of the fields D and Y: all grids up to 256x64, and their starts, share one compiled kernel
 
 Numbers = ti.types.ndarray(dtype=ti.i32, ndim=2)
 
 
 @dataclass(frozen=True)
 class SolverFields:
-    """Fields of the solve: J (see :mod:`fields`), V (vectors, see :mod:`operations`), D (inverse of the coarsest level); of the
-    convolutions Y (spectra, symbols, buffers of the workers), T (twiddle factors) and `odd` (radices of their transforms);
-    colours: whether lines are solved in two."""
+    """Fields of the solve.
+
+    J: tables (see :mod:`fields`). V: vectors (see :mod:`operations`). D: inverse of the coarsest level. Y, T: spectra, symbols
+    and buffers, and twiddle factors of the convolutions. odd: radices of their transforms. colours: whether lines are solved in
+    two colours.
+    """
 
     J: Any
     V: Any
@@ -48,7 +51,7 @@ class SolverFields:
 def linear_solve(memory: ti.template(), G: Table, C: Numbers, Q: Passes, todo: Numbers, jobs: Numbers, N: Table,
                  partial: Table, sync: task_pool.Sync, most: ti.i32, right: LinearFlat, outflow: LinearFlat, out: LinearFlat,
                  alone: ti.template()):
-    """All phases from the one that `sync` stands at, by as many workers as it says."""
+    """Run all phases from the phase in `sync` on, by the number of workers in `sync`."""
     ti.loop_config(block_dim=1, serialize=alone)
     for w in range(ti.cast(sync[task_pool.COUNT], ti.i32)):
         ticket, stays = task_pool.take(sync), True
@@ -69,7 +72,7 @@ def linear_solve(memory: ti.template(), G: Table, C: Numbers, Q: Passes, todo: N
 def one_phase(memory: ti.template(), G: Table, C: Numbers, Q: Passes, todo: Numbers, jobs: Numbers, N: Table,
               partial: Table, sync: task_pool.Sync, most: ti.i32, right: LinearFlat, outflow: LinearFlat, out: LinearFlat,
               alone: ti.template()):
-    """The phase that `sync` stands at, a job a thread, and which one follows."""
+    """Run the phase in `sync`, one job per thread, and decide which phase follows."""
     ti.loop_config(block_dim=1)
     for j in range(todo[ti.cast(sync[task_pool.TICKET], ti.i32), JOBS]):
         q = todo[ti.cast(sync[task_pool.TICKET], ti.i32), FIRST_JOB] + j
@@ -80,13 +83,13 @@ def one_phase(memory: ti.template(), G: Table, C: Numbers, Q: Passes, todo: Numb
 
 
 class Krylov:
-    """FGMRES for the linearised problem in the tables of `levels` (see :class:`Levels`).
+    """FGMRES for the linearised problem in the tables of `levels` (:class:`tehl_taichi.pressure.levels.Levels`).
 
-    right, outflow, out: vectors of `levels.n` numbers: scaled rows of the right-hand side, weights of the scaled rows in the
-    net outflow, result; `symbols`: of its convolutions, the deflection first.
+    Attributes, each (levels.n,): `right`: scaled rows of the right-hand side; `outflow`: weights of the scaled rows in the net
+    outflow; `out`: result. `symbols`: of its convolutions, deflection first.
     """
 
-    USUAL = 80  # iterations that the memory has room for at least, so that scenes with fewer share one compiled kernel
+    USUAL = 80  # least number of iterations that the memory is made for, so that scenes with fewer share a compiled kernel
 
     def __init__(self, levels):
         self.levels, self.most = levels, levels.scene.numerics.krylov_max
@@ -117,8 +120,8 @@ class Krylov:
         simd.fill(*simd.one_of(filled, v.J), fields.SCALE, int(v.G[0, simd.OFF]), np.ones_like(weights))
 
     def _largest(self):
-        """Entries of the inverse, and layout, of the finest grid of the scene: the smaller ones of a start use the same memory,
-        so that one compiled kernel serves all."""
+        """(entries of the inverse, Layout) of the finest grid of the scene. The smaller grids of a start use the same memory,
+        so that they share its compiled kernel."""
         scene = self.levels.scene
         sizes = coarsen(scene.grid.nx, scene.rows)
         dense, lines = solved_by(sizes)
@@ -136,7 +139,8 @@ class Krylov:
                             runtime.ensure()["threads"] == 1)
 
     def set_dense(self, inverse, place):
-        """Inverse (nodes, nodes) of the coarsest level, of which node n is number place[n] in the order of the table."""
+        """Set the inverse (nodes, nodes) of the coarsest level, whose node n has the number place[n] in the order of the
+        table."""
         size = columns(*self.levels.sizes[-1]) * simd.W
         whole = np.zeros((size, size), self.levels.linear)
         whole[np.ix_(place, place)] = inverse
@@ -145,12 +149,15 @@ class Krylov:
         self._fill_dense()
 
     def lift(self):
-        """Take the answer of the preconditioner to a change of H0, for the bordered system."""
+        """Compute and keep the preconditioner's answer to a change of H0, for the bordered system."""
         self._run(self.program.lift)
 
     def solve(self, load, mass, tolerance):
-        """Solve for `right` and the components `load` (None: H0 stays), `mass` to a residual of `tolerance` times theirs, or as
-        far as iterations go, into `out`. Returns the change of H0, the iterations and the reduction reached."""
+        """Solve into `out` for the right-hand side `right`, `load` (None: H0 is fixed) and `mass` (net outflow).
+
+        tolerance: norm of the residual, relative to that of the right-hand side; it may not be reached within the largest
+        number of iterations. Returns (change of H0, number of iterations, reduction of the norm).
+        """
         self.numbers[SCALARS, [gmres.LOAD, gmres.MASS, gmres.TOLERANCE]] = load or 0.0, mass, tolerance
         self.numbers[SCALARS, gmres.FIXED] = load is None
         self._run(self.program.solve)
@@ -158,21 +165,24 @@ class Krylov:
         return float(rise), int(count), float(left / beta) if beta > 0 else 0.0
 
     def apply(self, z, rise):
-        """Scaled Jacobian rows times the change z of the pressure (in the order of the table) and `rise` of H0; a buffer."""
+        """Scaled Jacobian rows (levels.n,) times the change z (levels.n,) of the pressure and `rise` of H0.
+
+        The result is a buffer that the next call overwrites.
+        """
         np.copyto(self.right, z)
         self.numbers[SCALARS, [gmres.COUNT, gmres.RISE]] = -1, rise
         self._run(self.program.apply)
         return self.out
 
     def _run(self, phase):
-        """Launch from `phase` on, as often as it takes."""
-        goes_on = self.numbers[SCALARS]
+        """Launch the kernel from `phase` on, until no launch is to follow."""
+        scalars = self.numbers[SCALARS]
         while phase >= 0:
-            goes_on[gmres.NEXT] = -1
+            scalars[gmres.NEXT] = -1
             self.team.run(self._launch, phase)
-            phase = int(goes_on[gmres.NEXT])
+            phase = int(scalars[gmres.NEXT])
 
 
 def dense_entries(sizes, dense):
-    """Vectors that the inverse of the coarsest level takes."""
+    """Number of lane vectors of the inverse of the coarsest level."""
     return sum(columns(*sizes[l]) ** 2 * simd.W for l in dense)

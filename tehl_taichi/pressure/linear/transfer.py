@@ -11,7 +11,7 @@ Rows = ti.types.ndarray(dtype=ti.i32, ndim=1)  # of the table S
 
 @ti.func
 def every_second(S: ti.template(), row, k, n2):
-    """Lanes of a coarse block: the rows 2 j of the fine blocks at columns k and k + n2."""
+    """Lanes of a coarse block: rows 2 j of the two fine blocks at columns k and k + n2."""
     a, b, out = S[row, k], S[row, k + n2], V(0.0)
     for u in ti.static(range(W)):
         if ti.static(2 * u < W):
@@ -23,7 +23,7 @@ def every_second(S: ti.template(), row, k, n2):
 
 @ti.func
 def inject_block(S: ti.template(), J: ti.template(), G: ti.template(), l, t, rows: ti.template()):
-    """The fields `rows` of block t of level l + 1 from level l."""
+    """Copy the fields `rows` of block t of level l + 1 from the coinciding nodes of level l; set KIND."""
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
     first, fine = coff + t * (mx + 1), off + 2 * t * (nx + 1)
@@ -44,8 +44,10 @@ def inject_block(S: ti.template(), J: ti.template(), G: ti.template(), l, t, row
 
 @ti.kernel
 def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, shared: ti.i32, rows: Rows, alone: ti.template()):
-    """The fields `rows` (state, sets, laws) of every coarser level from the coinciding nodes of the finest; ghosts stay dry.
-    KIND: what is dry, for levels that corrections only pass through. shared: blocks of the first one (3/4 of all).
+    """Copy the fields `rows` (state, sets, laws) of every coarser level from the coinciding nodes of the finest level.
+
+    Ghosts stay dry. KIND is set to dry or local, for levels without lines. shared: number of blocks of the first coarser level,
+    which are copied in parallel.
     """
     ti.loop_config(block_dim=1, serialize=alone)
     for t in range(shared):
@@ -59,17 +61,19 @@ def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, shared:
 
 @ti.func
 def wet(J: ti.template(), k):
+    """RES of column k, 0 at dry nodes."""
     return ti.select(is_kind(J, k, DRY_KIND), L(J, 0.0), J[RES, k])
 
 
 @ti.func
 def weighted_x(J: ti.template(), k):
+    """RES of wet nodes, weighted 1/4, 1/2, 1/4 along x around column k."""
     return L(J, 0.5) * wet(J, k) + L(J, 0.25) * (wet(J, k - 1) + wet(J, k + 1))
 
 
 @ti.func
 def transfer_weights(J: ti.template(), G: ti.template(), l, t):
-    """y weights of the fine rows 2 j - 1, 2 j, 2 j + 1 for the coarse rows of block t; mirrored at the borders."""
+    """Weights along y of the fine rows 2 j - 1, 2 j, 2 j + 1 for the coarse rows of block t; mirrored at the borders."""
     my = cells(G, l + 1)[1]
     lower, centre, upper = L(J, 0.25), L(J, 0.5), L(J, 0.25)
     for u in ti.static(range(W)):
@@ -85,7 +89,7 @@ def transfer_weights(J: ti.template(), G: ti.template(), l, t):
 
 @ti.func
 def restrict_column(J: ti.template(), c, k, n2, t, lower, centre, upper):
-    """RES of column c of coarse block t from the columns around k, by the weights of its rows."""
+    """Set RES of column c of coarse block t from the fine columns around k; lower, centre, upper: weights of its rows."""
     a, b, before = weighted_x(J, k), weighted_x(J, k + n2), ti.cast(0.0, J.dtype)
     if t > 0:
         before = weighted_x(J, k - n2)[W - 1]
@@ -106,6 +110,7 @@ def restrict_column(J: ti.template(), c, k, n2, t, lower, centre, upper):
 
 @ti.func
 def restrict_block(J: ti.template(), G: ti.template(), l, t):
+    """Set RES of block t of level l + 1 from level l."""
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
     n2 = nx + 1
@@ -116,7 +121,7 @@ def restrict_block(J: ti.template(), G: ti.template(), l, t):
 
 @ti.func
 def doubled(J: ti.template(), c, m2, upper_half):
-    """Correction at the fine rows of a block from the coarse block at c: mean of rows j // 2 and (j + 1) // 2."""
+    """Correction at the fine rows j of a block from column c of the coarse block: mean of rows j // 2 and (j + 1) // 2."""
     v, rim = J[COR, c], J[COR, c + m2][0]
     out = L(J, 0.0)
     for u in ti.static(range(W)):
@@ -133,12 +138,14 @@ def doubled(J: ti.template(), c, m2, upper_half):
 
 @ti.func
 def add_where_wet(J: ti.template(), k, own, change):
+    """Add `change` to COR of column k, 0 at dry nodes; own: whether COR has a value on this level."""
     before = ti.select(own, J[COR, k], L(J, 0.0))
     J[COR, k] = before + ti.select(is_kind(J, k, DRY_KIND), L(J, 0.0), change)
 
 
 @ti.func
 def prolong_block(J: ti.template(), G: ti.template(), l, s, damping):
+    """Add COR of level l + 1, times `damping`, to block s of level l."""
     nx, ny, off = cells(G, l)
     mx, my, coff = cells(G, l + 1)
     first, c, half = off + s * (nx + 1), coff + s // 2 * (mx + 1), s % 2

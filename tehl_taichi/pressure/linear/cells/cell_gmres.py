@@ -1,4 +1,4 @@
-"""The :class:`tehl_taichi.pressure.linear.interface.LinearSolver` of graphics cards: FGMRES with additive line multigrid."""
+"""FGMRES with additive line multigrid for graphics cards, behind the interface of a linear solver."""
 
 import math
 
@@ -11,7 +11,8 @@ from tehl_taichi.pressure.linear.preconditioner import Coarsest
 
 
 class CellGmres:
-    """The solver of `levels`."""
+    """The :class:`tehl_taichi.pressure.linear.interface.LinearSolver` for graphics cards; levels: the Levels with the
+    problem."""
 
     def __init__(self, levels):
         self.krylov = CellKrylov(levels)

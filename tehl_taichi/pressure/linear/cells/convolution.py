@@ -1,7 +1,8 @@
-"""The deflection K and the distribution K^-1 by threads: see :mod:`tehl_taichi.pressure.linear.convolution` for what they are.
+"""The deflection K and the distribution K^-1 with one butterfly per thread; mathematics:
+:mod:`tehl_taichi.pressure.linear.convolution`.
 
-Along x complex transforms of length M of even and odd columns, split into waves 0 ... M; along y complex ones of length N, of
-all waves at once. Several convolutions go together, a pass of each in one loop.
+Along x: complex transforms of length M of the even (real part) and odd (imaginary part) columns, split into waves 0 ... M.
+Along y: complex transforms of length N of all waves. Several convolutions run together: one loop does a pass of each.
 """
 
 import numpy as np
@@ -15,8 +16,12 @@ from tehl_taichi.pressure.linear.cells.transforms import butterfly, passes, turn
 
 
 class Convolution:
-    """Places of one convolution: M, N: lengths; x, y: first entries of the rows and of the waves; symbol, strip, split: of
-    their tables; last: of the waves of the outermost row; half_first, half_last: rows on a mirror, which count half, or -1."""
+    """Places of one convolution.
+
+    M, N: lengths along x and y. x, y: first entries of the rows and of the waves. symbol, strip, split: first entries of their
+    tables. last: first entry of the waves of the outermost row. half_first, half_last: rows on a mirror, which count half, or
+    -1. along, across, back: passes of the transforms.
+    """
 
     def __init__(self, levels, symbols, lengths, at):
         shape = symbols.shape
@@ -27,7 +32,7 @@ class Convolution:
         self.split = lengths.turns(np.arange(self.M + 1), 2 * self.M)
         self.along, self.across = passes(lengths, self.M, 0), passes(lengths, self.N, 0)
         self.back = passes(lengths, self.N, len(self.across) % 2)
-        self.there, self.here = len(self.along) % 2, len(self.across) % 2  # rows of the fields with the transforms
+        self.there, self.here = len(self.along) % 2, len(self.across) % 2  # rows of X, Y that hold the results
         self.half_first, self.half_last = 0 if symbols.mirrors[0] else -1, self.ny if symbols.mirrors[1] else -1
         self.endless = bool(symbols.endless)
         for name, count in (("x", self.rows * self.M), ("y", self.N * self.waves), ("last", self.waves),
@@ -35,7 +40,7 @@ class Convolution:
             at[name] += count
 
     def entries(self):
-        """Numbers (., 3): A, Re B, Im B of wave after wave, then the strip; with the transforms' factors 1/M, 1/N."""
+        """Numbers (n, 3): A, Re B, Im B of each wave, then the strip; with the factors 1/M, 1/N of the transforms."""
         s, out = self.symbols, np.zeros((self.half_waves + 1, self.waves, 3))
         out[:-1] = np.stack([s.A, s.B.real, s.B.imag], axis=2) / (self.M * self.N)
         out[-1, :, 0] = s.strip / self.M
@@ -43,8 +48,11 @@ class Convolution:
 
 
 class Convolutions:
-    """Several convolutions (`symbols`: of each) that go together, in `precision`; fields: X (rows), Y (waves), T (factors),
-    A (symbols), E (waves of the outermost row); jobs of their loops."""
+    """Several convolutions that run together; symbols: of each convolution.
+
+    Fields: X (rows), Y (waves), T (twiddle factors), A (symbols), E (waves of the outermost row). Further attributes are the
+    Jobs of the loops.
+    """
 
     def __init__(self, levels, symbols, precision, dtype):
         lengths, at = Lengths(), dict(x=0, y=0, symbol=0, last=0)
@@ -59,6 +67,7 @@ class Convolutions:
         self._count()
 
     def _count(self):
+        """Set the jobs of the loops."""
         self.along = self._passes([(c, c.along, c.rows) for c in self.all])
         self.across = self._passes([(c, c.across, c.waves) for c in self.all])
         self.back = self._passes([(c, c.back, c.waves) for c in self.all])
@@ -69,7 +78,7 @@ class Convolutions:
 
     @staticmethod
     def _passes(parts):
-        """Jobs of pass after pass; parts: (convolution, its passes, transforms that go together)."""
+        """List of the Jobs of each pass; parts: (convolution, its passes, number of its transforms)."""
         most = max(len(passes_of) for _, passes_of, _ in parts)
         return [Jobs([((c, ps[n]), together * ps[n].distance) for c, ps, together in parts if n < len(ps)])
                 for n in range(most)]
@@ -77,7 +86,7 @@ class Convolutions:
 
 @ti.func
 def put_pair(K: ti.template(), c: ti.template(), s, m, even, odd):
-    """Columns 2 m and 2 m + 1 of block s."""
+    """Write columns 2 m and 2 m + 1 of block s to X."""
     for u in ti.static(range(W)):
         if s * W + u <= c.ny:
             K.X[0, c.x + (s * W + u) * c.M + m] = ti.Vector([even[u], odd[u]])
@@ -85,7 +94,7 @@ def put_pair(K: ti.template(), c: ti.template(), s, m, even, odd):
 
 @ti.func
 def column(K: ti.template(), c: ti.template(), s, i):
-    """Column i of block s of what has come back; 0 in ghosts."""
+    """Column i of block s of the result; 0 in ghosts."""
     out, m = ti.Vector([ti.cast(0.0, K.X.dtype) for _ in ti.static(range(W))]), i // 2 % c.M
     for u in ti.static(range(W)):
         if s * W + u <= c.ny:
@@ -96,6 +105,7 @@ def column(K: ti.template(), c: ti.template(), s, i):
 
 @ti.func
 def pass_along(K: ti.template(), n: ti.template(), backward: ti.template()):
+    """Pass n of the transforms along x of all convolutions."""
     for t in range(K.along[n].total):
         for part, first, end in ti.static(K.along[n].parts):
             c, one = ti.static(part)
@@ -106,6 +116,7 @@ def pass_along(K: ti.template(), n: ti.template(), backward: ti.template()):
 
 @ti.func
 def pass_across(K: ti.template(), jobs: ti.template(), backward: ti.template()):
+    """One pass of the transforms along y of all convolutions."""
     for t in range(jobs.total):
         for part, first, end in ti.static(jobs.parts):
             c, one = ti.static(part)
@@ -115,7 +126,7 @@ def pass_across(K: ti.template(), jobs: ti.template(), backward: ti.template()):
 
 @ti.func
 def wave(K: ti.template(), c: ti.template(), j, k):
-    """Real transform of row j, wave k, from the complex one."""
+    """Wave k of the real transform of row j, from the complex transform."""
     half, row = ti.cast(0.5, K.X.dtype), c.x + j * c.M
     a, b, w = K.X[c.there, row + k % c.M], K.X[c.there, row + (c.M - k) % c.M], K.T[0, c.split + k]
     even = half * ti.Vector([a[0] + b[0], a[1] - b[1]])
@@ -124,7 +135,8 @@ def wave(K: ti.template(), c: ti.template(), j, k):
 
 @ti.func
 def spread(K: ti.template()):
-    """Waves of all rows, less an endless outermost one, zero behind; rows on a mirror count half."""
+    """Write the waves of all rows to Y: an endless outermost row is subtracted, rows on a mirror count half, further entries
+    are zero."""
     for t in range(K.spread.total):
         for c, first, end in ti.static(K.spread.parts):
             if first <= t < end:
@@ -156,7 +168,7 @@ def multiply(K: ti.template()):
 
 @ti.func
 def answer(K: ti.template(), c: ti.template(), j, k):
-    """Wave k of row j, with the answer of the strip to the outermost row."""
+    """Wave k of row j, with the response of the strip to the outermost row."""
     return K.Y[0, c.y + j * c.waves + k] + K.A[0, c.strip + k][0] * K.E[0, c.last + k]
 
 
@@ -175,7 +187,7 @@ def join(K: ti.template()):
 
 @ti.func
 def convolve(K: ti.template()):
-    """What :func:`put_pair` has put, times the symbols, for :func:`column`."""
+    """Convolve the columns that :func:`put_pair` has written; :func:`column` reads the result."""
     for n in ti.static(range(len(K.along))):
         pass_along(K, n, False)
     spread(K)

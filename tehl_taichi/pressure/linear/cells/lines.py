@@ -1,9 +1,9 @@
 """Lines along x by cyclic reduction: three nodes are a block, the seven diagonals a block tridiagonal system.
 
-Every step takes the neighbours at a distance out of all blocks at once, by A d^-1 and C d^-1 of theirs, and doubles the
-distance; after the last one the blocks stand alone. Lines of the gear on 256 columns: the coupling is 1e-3 after three steps,
-1e-7 after four; results in single precision are off by 1e-7 of the largest, by the factors of
-:mod:`tehl_taichi.pressure.linear.line_solver` by 5e-8.
+Every step eliminates the neighbours at a distance from all blocks in parallel (factors A d^-1 and C d^-1, d: the neighbour's
+own matrix) and doubles the distance. After the last step the blocks are independent. Lines of the gear on 256 columns: the
+coupling is 1e-3 after three steps, 1e-7 after four. The error in single precision is 1e-7 of the largest value; with the
+factors of :mod:`tehl_taichi.pressure.linear.line_solver` it is 5e-8.
 """
 
 from tehl_taichi.engine import field_pool
@@ -15,16 +15,21 @@ from tehl_taichi.pressure.linear.line_solver import HALF, NEAR, REACH, fill_row
 
 SIZE = 3  # nodes of a block, as many as the half bandwidth
 ENTRIES = SIZE * SIZE
-BEHIND, OWN, AHEAD = range(3)  # matrices of a block: of the block behind, its own, of the one ahead
-INVERSE = 2 * 3 * ENTRIES  # rows of the field: both states of these matrices, then the inverse of the own one at the end,
-RIGHT = INVERSE + ENTRIES  # both states of the right-hand side,
-STEPS = RIGHT + 2 * SIZE  # and both factors of every step
-SMALLEST = 1e-30  # determinant
+BEHIND, OWN, AHEAD = range(3)  # matrices of a block: of the block before it, its own, of the block after it
+# rows of the field F: both states of these matrices; INVERSE: inverse of the own matrix at the end; RIGHT: both states of the
+# right-hand side; STEPS: both factors of every step
+INVERSE = 2 * 3 * ENTRIES
+RIGHT = INVERSE + ENTRIES
+STEPS = RIGHT + 2 * SIZE
+SMALLEST = 1e-30  # least size of a determinant
 
 
 class LineLevel(Level):
-    """A level with lines: blocks of a line; the first of its blocks in the field; kernels of deflection and pressure near a
-    node (see :func:`tehl_taichi.pressure.linear.line_solver.build_lines`)."""
+    """A level with lines.
+
+    line_blocks: number of blocks of a line. first_block: first of its blocks in the field. inner, rim, inverse, beside: kernels
+    of deflection and pressure near a node (see :func:`tehl_taichi.pressure.linear.line_solver.build_lines`).
+    """
 
     def __init__(self, levels, number, first, inverse):
         super().__init__(levels, number)
@@ -36,12 +41,12 @@ class LineLevel(Level):
 
     @property
     def lines(self):
-        """Lines, ghosts included."""
+        """Number of lines, ghosts included."""
         return self.blocks * W
 
 
 class Lines:
-    """Lines of those levels of `levels` that have symbols of the distribution; F: the field of their blocks."""
+    """Lines of the levels with a distribution; symbols: of these distributions; F: field of the blocks of all lines."""
 
     def __init__(self, levels, symbols):
         self.levels, first = [], 0
@@ -59,12 +64,13 @@ class Lines:
 
 @ti.func
 def constants(J: ti.template(), row: ti.template()):
+    """A vector of the numbers of `row`, as constants of the kernel."""
     return ti.Vector([ti.cast(ti.static(x), J.dtype) for x in ti.static(row)])
 
 
 @ti.func
 def fill_bands(J: ti.template(), lines: ti.template()):
-    """The seven entries of every node."""
+    """Write the seven entries of every node's row."""
     for t in range(lines.columns.total):
         k, i, nx, outer = 0, 0, 0, L(J, 0.0)
         inner, rim = constants(J, lines.levels[0].inner), constants(J, lines.levels[0].rim)
@@ -83,8 +89,11 @@ def fill_bands(J: ti.template(), lines: ti.template()):
 
 @ti.func
 def group(lines: ti.template(), t):
-    """Job t of `lines.groups`: column of the first node of its blocks in the tables, nodes of the line from there on, first of
-    its blocks, distance of these from line to line."""
+    """(k, nodes, q, step) of job t of `lines.groups`, the blocks of W lines at one place.
+
+    k: column of their first nodes in the tables; nodes: number of nodes of a line from there on; q: number of the first block;
+    step: distance of the blocks from line to line.
+    """
     k, nodes, q, step = 0, 0, 0, 0
     for one, first, end in ti.static(lines.groups.parts):
         if first <= t < end:
@@ -96,7 +105,7 @@ def group(lines: ti.template(), t):
 
 @ti.func
 def neighbours(lines: ti.template(), q, distance):
-    """Whether block q has neighbours at a distance, behind and ahead."""
+    """Whether block q has neighbours at a distance: (before it, after it)."""
     behind, ahead = False, False
     for one, first, end in ti.static(lines.blocks.parts):
         if first <= q < end:
@@ -107,11 +116,13 @@ def neighbours(lines: ti.template(), q, distance):
 
 @ti.func
 def matrix(F: ti.template(), row, b):
+    """Matrix of block b that begins at `row` of the field."""
     return ti.Matrix([[F[row + SIZE * r + c, b][0] for c in ti.static(range(SIZE))] for r in ti.static(range(SIZE))])
 
 
 @ti.func
 def put_matrix(F: ti.template(), row, b, m):
+    """Store a matrix of block b from `row` of the field on."""
     for r, c in ti.static(ti.ndrange(SIZE, SIZE)):
         F[row + SIZE * r + c, b][0] = m[r, c]
 
@@ -130,13 +141,13 @@ def inverted(F: ti.template(), m):
 
 @ti.func
 def state(n, which: ti.template()):
-    """First row of a matrix of the blocks in state n, 0 or 1."""
+    """First row of the field for the matrix `which` (BEHIND, OWN, AHEAD) in state n, 0 or 1."""
     return (3 * n + which) * ENTRIES
 
 
 @ti.func
 def gather(J: ti.template(), lines: ti.template()):
-    """Matrices of all blocks from the bands; nodes behind the last are the identity."""
+    """Set the matrices of all blocks from the bands; nodes after the last one are the identity."""
     F = ti.static(lines.F)
     for t in range(lines.groups.total):
         k, nodes, q, step = group(lines, t)
@@ -152,8 +163,10 @@ def gather(J: ti.template(), lines: ti.template()):
 
 @ti.func
 def eliminate(F: ti.template(), d, old, new, q, other, row, side: ti.template(), here):
-    """Take the neighbour `other` on a side (BEHIND or AHEAD) out of block q, whose own matrix is d; its factor goes to `row`.
-    here: whether there is that neighbour. Returns the own matrix."""
+    """Eliminate the neighbour `other` on a side (BEHIND or AHEAD) from block q; return the new own matrix.
+
+    d: own matrix of q; old, new: states; row: where the factor is stored; here: whether the neighbour exists.
+    """
     factor, beyond = d * ti.cast(0.0, F.dtype), d * ti.cast(0.0, F.dtype)
     if here:
         factor = matrix(F, state(old, side), q) @ inverted(F, matrix(F, state(old, OWN), other))
@@ -166,7 +179,7 @@ def eliminate(F: ti.template(), d, old, new, q, other, row, side: ti.template(),
 
 @ti.func
 def reduce_matrices(lines: ti.template(), n):
-    """Step n: its factors, and the matrices behind it."""
+    """Step n of the reduction: compute its factors and the new matrices."""
     F = ti.static(lines.F)
     for q in range(lines.blocks.total):
         distance, old, row = 1 << n, n % 2, STEPS + 2 * n * ENTRIES
@@ -179,7 +192,7 @@ def reduce_matrices(lines: ti.template(), n):
 
 @ti.func
 def invert(lines: ti.template()):
-    """Inverses of the blocks, which stand alone now."""
+    """Invert the own matrices of the blocks, which are independent after the last step."""
     F = ti.static(lines.F)
     for q in range(lines.blocks.total):
         put_matrix(F, INVERSE, q, inverted(F, matrix(F, state(lines.end, OWN), q)))
@@ -187,16 +200,19 @@ def invert(lines: ti.template()):
 
 @ti.func
 def right_row(n: ti.template(), r: ti.template()):
+    """Row of the field with entry r of the right-hand side in state n."""
     return ti.static(RIGHT + SIZE * n + r)
 
 
 @ti.func
 def right(F: ti.template(), n: ti.template(), q):
+    """Right-hand side (SIZE,) of block q in state n."""
     return ti.Vector([F[right_row(n, r), q][0] for r in ti.static(range(SIZE))])
 
 
 @ti.func
 def take_right(J: ti.template(), lines: ti.template()):
+    """Set the right-hand sides of all blocks from RES."""
     F = ti.static(lines.F)
     for t in range(lines.groups.total):
         k, nodes, q, step = group(lines, t)
@@ -210,6 +226,7 @@ def take_right(J: ti.template(), lines: ti.template()):
 
 @ti.func
 def reduce_right(lines: ti.template(), n: ti.template()):
+    """Step n of the reduction of the right-hand sides."""
     F, distance = ti.static(lines.F, lines.distances[n])
     for q in range(lines.blocks.total):
         behind, ahead = neighbours(lines, q, distance)
@@ -224,7 +241,7 @@ def reduce_right(lines: ti.template(), n: ti.template()):
 
 @ti.func
 def solve(J: ti.template(), lines: ti.template()):
-    """SOL from RES."""
+    """Solve all lines for SOL, with RES as right-hand side."""
     take_right(J, lines)
     for n in ti.static(range(len(lines.distances))):
         reduce_right(lines, n)

@@ -1,4 +1,4 @@
-"""Places of the levels as constants of kernels: loops with constant bounds are one launch on a card, others two."""
+"""Places of the levels as constants of kernels: a loop with constant bounds is one launch on a card, another loop two."""
 
 from tehl_taichi.engine import simd
 from tehl_taichi.engine.language import ti
@@ -6,9 +6,11 @@ from tehl_taichi.engine.simd import W
 
 
 class Level:
-    """Level `number` of `levels` (see :class:`tehl_taichi.pressure.levels.Levels`): cells nx, ny; its first column in the
-    tables; blocks of W rows, columns of a block (n2) and of the level; rows: those with unknowns; own: whether lines are
-    solved on it."""
+    """Level `number` of a :class:`tehl_taichi.pressure.levels.Levels`.
+
+    nx, ny: cells. first: its first column in the tables. blocks: number of blocks of W rows. n2, columns: numbers of columns of
+    a block and of the level. rows: number of rows with unknowns. own: whether lines are solved on it.
+    """
 
     def __init__(self, levels, number):
         self.number, (self.nx, self.ny) = number, levels.sizes[number]
@@ -18,10 +20,10 @@ class Level:
 
 
 class Jobs:
-    """Jobs of several parts in one loop: `total`; `parts`: (part, its first job, the one behind its last)."""
+    """Jobs of several parts in one loop; total: their number; parts: list of (part, its first job, end)."""
 
     def __init__(self, counted):
-        """counted: (part, number of its jobs), ..."""
+        """counted: list of (part, number of its jobs)."""
         self.total, self.parts = 0, []
         for part, count in counted:
             self.parts.append((part, self.total, self.total + count))
@@ -30,5 +32,5 @@ class Jobs:
 
 @ti.func
 def place(level: ti.template(), q):
-    """Block and column along x of column q of a level."""
+    """(block, number along x) of column q of a level."""
     return q // level.n2, q % level.n2

@@ -1,4 +1,4 @@
-"""The linear solve with cells as jobs: its fields and its kernels, a few launches an iteration that wait for nothing."""
+"""The linear solve with columns as jobs: its fields and kernels, with a few launches per iteration."""
 
 import numpy as np
 
@@ -35,9 +35,12 @@ ENOUGH, CONTINUES = 1, 0
 
 
 class Memory:
-    """What kernels see of a solver, all of it constant: fields S, J (see :mod:`fields`), V (vectors), D (inverse of the
-    coarsest level); levels; K: deflection, Q: distributions (:class:`Convolutions`); lines; most: iterations; bounds of the
-    kinds."""
+    """Constants and fields that kernels of a solver use.
+
+    S, J: tables (see :mod:`fields`). V: vectors. D: inverse of the coarsest level. levels: list of Level. K, Q: Convolutions of
+    the deflection and of the distributions. lines: Lines. most: largest number of iterations. bounds: between the kinds of
+    nodes.
+    """
 
     def __init__(self, levels, symbols):
         v = self.owner = levels
@@ -57,7 +60,7 @@ class Memory:
 
 @ti.kernel
 def bands(F: ti.template(), G: Table):
-    """Kinds of all nodes, matrices of all lines."""
+    """Set the kinds of all nodes and the matrices of all lines."""
     for n in ti.static(range(len(F.solved))):
         vectors.classify(F.S, F.J, G, F.solved[n], *ti.static(F.bounds))
     lines.fill_bands(F.J, F.lines)
@@ -66,29 +69,31 @@ def bands(F: ti.template(), G: Table):
 
 @ti.kernel
 def reduce(F: ti.template(), n: ti.i32):
-    """Step n of the reduction of all lines."""
+    """Do step n of the reduction of all lines."""
     lines.reduce_matrices(F.lines, n)
 
 
 @ti.kernel
 def invert(F: ti.template()):
+    """Invert the blocks of all lines after the reduction."""
     lines.invert(F.lines)
 
 
 @ti.kernel
 def line_solutions(F: ti.template()):
+    """Solve all lines for SOL, with RES as right-hand side."""
     lines.solve(F.J, F.lines)
 
 
 @ti.kernel
-def precondition(F: ti.template(), G: Table, parts: Table, groups: Table):
-    """RES of the finest level -> COR, and the parts of its load."""
+def precondition(F: ti.template(), G: Table, N: Table, parts: Table):
+    """Apply the preconditioner: COR of the finest level from RES, and the partial sums of its load."""
     for l in ti.static(range(len(F.levels) - 1)):
         transfer.restrict(F.J, G, F.levels[l], F.levels[l + 1])
     for level in ti.static(F.dense):
         vectors.dense(F.J, F.D, level)
     lines.solve(F.J, F.lines)
-    vectors.spread_lines(F, F.Q)
+    vectors.put_columns(F, N, F.Q, F.most, vectors.line_part)
     convolve(F.Q)
     vectors.collect(F, F.Q, F.lines)
     for n in ti.static(range(len(F.levels) - 1)):
@@ -98,22 +103,23 @@ def precondition(F: ti.template(), G: Table, parts: Table, groups: Table):
 
 @ti.kernel
 def direct(F: ti.template(), N: Table, parts: Table, groups: Table, totals: Table):
-    """Border of the preconditioned vector, then the newest direction."""
+    """Set the border of the preconditioned vector (its change of H0), then the newest direction."""
     add_up(parts, groups, totals, LOAD_SUM, DOT_SUM)
     for _ in range(1):
         gmres.border(N, totals, ti.cast(N[SCALARS, COUNT], ti.i32))
-    vectors.direct(F, N, F.K, F.most)
+    vectors.put_columns(F, N, F.K, F.most, vectors.directed)
 
 
 @ti.kernel
 def multiply(F: ti.template(), N: Table):
-    """Jacobian times the direction."""
+    """Multiply the direction by the Jacobian."""
     convolve(F.K)
     vectors.rows(F, N, F.K, F.fine)
 
 
 @ti.func
 def project(F: ti.template(), N: ti.template(), parts: ti.template(), groups: ti.template(), totals: ti.template()):
+    """Subtract the components along the basis from the newest vector."""
     products(F.V, parts, F.most, F.fine.columns, operations.OUTFLOW, operations.BASIS, N)
     add_up(parts, groups, totals, 0, DOT_SUM + F.most)
     for _ in range(1):
@@ -123,7 +129,7 @@ def project(F: ti.template(), N: ti.template(), parts: ti.template(), groups: ti
 
 @ti.kernel
 def extend(F: ti.template(), N: Table, parts: Table, groups: Table, totals: Table) -> ti.i32:
-    """Take the product into the basis, projected twice. Returns ENOUGH or CONTINUES."""
+    """Project the product twice and take it into the basis. Returns ENOUGH or CONTINUES."""
     for _ in ti.static(range(2)):
         project(F, N, parts, groups, totals)
     products(F.V, parts, 0, F.fine.columns, operations.OUTFLOW, operations.BASIS, N)
@@ -136,7 +142,7 @@ def extend(F: ti.template(), N: Table, parts: Table, groups: Table, totals: Tabl
 @ti.kernel
 def begin(F: ti.template(), N: Table, parts: Table, groups: Table, totals: Table, right: LinearFlat, outflow: LinearFlat,
           load: ti.f64, fixed: ti.f64, tolerance: ti.f64):
-    """First vector of the basis."""
+    """Set the first vector of the basis."""
     for _ in range(1):
         N[SCALARS, COUNT], N[SCALARS, LOAD], N[SCALARS, FIXED], N[SCALARS, TOLERANCE] = -1.0, load, fixed, tolerance
     vectors.start(F, F.fine, right, outflow)
@@ -150,13 +156,13 @@ def begin(F: ti.template(), N: Table, parts: Table, groups: Table, totals: Table
 
 @ti.kernel
 def ones(F: ti.template()):
-    """RES for a change of H0."""
+    """Set RES for a change of H0."""
     vectors.ones(F.J, F.fine)
 
 
 @ti.kernel
 def lift(F: ti.template(), N: Table, parts: Table, groups: Table, totals: Table):
-    """Keep the answer to a change of H0, and its load."""
+    """Keep the preconditioner's answer to a change of H0, and its load."""
     vectors.lift(F, F.fine)
     vectors.load_parts(F, F.fine, parts)
     add_up(parts, groups, totals, LOAD_SUM, DOT_SUM)
@@ -166,7 +172,7 @@ def lift(F: ti.template(), N: Table, parts: Table, groups: Table, totals: Table)
 
 @ti.kernel
 def finish(F: ti.template(), N: Table, out: LinearFlat, numbers: Flat):
-    """The solution; numbers: iterations, norm at the start and at the end, change of H0."""
+    """Write the solution to `out`; numbers: iterations, norm at the start and at the end, change of H0."""
     vectors.finish(F, N, F.fine, F.most, out)
     for _ in range(1):
         for n, which in ti.static(enumerate((COUNT, gmres.BETA, LEFT, RISE))):
@@ -175,7 +181,7 @@ def finish(F: ti.template(), N: Table, out: LinearFlat, numbers: Flat):
 
 @ti.kernel
 def given(F: ti.template(), N: Table, right: LinearFlat, rise: ti.f64):
-    """A given direction."""
+    """Take a given direction, and a change `rise` of H0."""
     for _ in range(1):
         N[SCALARS, COUNT], N[SCALARS, RISE] = -1.0, rise
     vectors.given(F.J, F.K, right)
@@ -183,12 +189,15 @@ def given(F: ti.template(), N: Table, right: LinearFlat, rise: ti.f64):
 
 @ti.kernel
 def copy(F: ti.template(), N: Table, out: LinearFlat):
+    """Write the newest vector to `out`."""
     vectors.copy(F, N, F.fine, out)
 
 
 class CellKrylov:
-    """FGMRES for the linearised problem in the tables of `levels` (see :class:`Levels`); out: the last result, an array of
-    Taichi."""
+    """FGMRES for the linearised problem in the tables of `levels` (:class:`tehl_taichi.pressure.levels.Levels`).
+
+    out: the last result (levels.n,), a Taichi array.
+    """
 
     def __init__(self, levels):
         v = self.levels = levels
@@ -208,7 +217,8 @@ class CellKrylov:
         simd.fill(*simd.one_of((field,), field), row, first, values)
 
     def set_dense(self, inverse, place):
-        """Inverse (nodes, nodes) of the coarsest level, of which node n is number place[n] in the order of the table."""
+        """Set the inverse (nodes, nodes) of the coarsest level, whose node n has the number place[n] in the order of the
+        table."""
         size = self.memory.levels[-1].columns * W
         whole = np.zeros((size, size), self.levels.linear)
         whole[np.ix_(place, place)] = inverse
@@ -216,31 +226,34 @@ class CellKrylov:
         self._fill(self.memory.D, 0, 0, self.dense)
 
     def build(self):
-        """Kinds and lines of the linearised problem."""
+        """Set the kinds of the nodes, and factorise the lines of the linearised problem."""
         bands(self.memory, there(self.levels.G))
         for n in range(len(self.memory.lines.distances)):
             reduce(self.memory, n)
         invert(self.memory)
 
     def solve_lines(self):
-        """SOL of all levels with lines from their RES."""
+        """Solve the lines of all levels for SOL, with RES as right-hand side."""
         line_solutions(self.memory)
 
     def _sums(self):
         return self.numbers, self.parts, self.groups, self.totals
 
     def _precondition(self):
-        precondition(self.memory, there(self.levels.G), self.parts, self.groups)
+        precondition(self.memory, there(self.levels.G), self.numbers, self.parts)
 
     def lift(self):
-        """Take the answer of the preconditioner to a change of H0, for the bordered system."""
+        """Compute and keep the preconditioner's answer to a change of H0, for the bordered system."""
         ones(self.memory)
         self._precondition()
         lift(self.memory, *self._sums())
 
     def solve(self, right, outflow, load, tolerance):
-        """Solve for the rows `right`, the net outflow that they have with the weights `outflow` and the component `load`; the
-        rest as :meth:`tehl_taichi.pressure.linear.solver.Krylov.solve`. Arrays of numpy, or of Taichi."""
+        """Solve for the rows `right`, their net outflow by the weights `outflow`, and the load `load` (None: H0 is fixed).
+
+        right, outflow: (levels.n,), numpy or Taichi arrays. Tolerance and result: see
+        :meth:`tehl_taichi.pressure.linear.solver.Krylov.solve`; the solution is in `out`.
+        """
         begin(self.memory, *self._sums(), right, outflow, load or 0.0, float(load is None), tolerance)
         enough = CONTINUES
         while enough == CONTINUES:
@@ -254,7 +267,7 @@ class CellKrylov:
         return float(rise), int(count), float(left / beta) if beta > 0 else 0.0
 
     def apply(self, z, rise):
-        """Scaled Jacobian rows times the change z of the pressure (in the order of the table) and `rise` of H0."""
+        """Scaled Jacobian rows (levels.n,) times the change z (levels.n,) of the pressure and `rise` of H0."""
         given(self.memory, self.numbers, np.ascontiguousarray(z, self.levels.linear), rise)
         multiply(self.memory, self.numbers)
         copy(self.memory, self.numbers, self.out)

@@ -1,4 +1,4 @@
-"""Sums over all columns in a fixed order: by CHUNKS threads, then by GROUPS, then by one each."""
+"""Sums over all columns in a fixed order: CHUNKS partial sums, then GROUPS, then one."""
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.pressure.linear.gmres import COUNT, DOT_SUM, LOAD_SUM, MASS_SUM, SCALARS
@@ -8,7 +8,7 @@ CHUNKS, GROUPS = 4096, 64
 
 @ti.func
 def product(V: ti.template(), a, b, c, columns: ti.template()):
-    """Part c of the product of rows a and b."""
+    """Partial sum c of the scalar product of rows a and b of V."""
     out = ti.cast(0.0, ti.f64)
     for q in range(ti.static((columns + CHUNKS - 1) // CHUNKS)):
         if c + q * CHUNKS < columns:
@@ -19,7 +19,8 @@ def product(V: ti.template(), a, b, c, columns: ti.template()):
 @ti.func
 def products(V: ti.template(), parts: ti.template(), most: ti.template(), columns: ti.template(), outflow: ti.template(),
              basis: ti.template(), N: ti.template()):
-    """Parts of the products of the newest vector (number COUNT + 1 of the basis) with itself, the outflow and those before."""
+    """Partial sums of the products of the newest vector (number COUNT + 1 of the basis) with itself, the outflow weights and
+    the vectors before it."""
     for t in range((DOT_SUM + most) * CHUNKS):
         m, c = t // CHUNKS, t % CHUNKS
         new = ti.cast(N[SCALARS, COUNT], ti.i32) + 1
@@ -32,7 +33,7 @@ def products(V: ti.template(), parts: ti.template(), most: ti.template(), column
 
 @ti.func
 def add_up(parts: ti.template(), groups: ti.template(), totals: ti.template(), first: ti.template(), end: ti.template()):
-    """totals[0, m] of first <= m < end."""
+    """Add up the partial sums: totals[0, m] for first <= m < end."""
     for t in range(ti.static((end - first) * GROUPS)):
         m, g, out = first + t // GROUPS, t % GROUPS, ti.cast(0.0, ti.f64)
         for n in range(CHUNKS // GROUPS):

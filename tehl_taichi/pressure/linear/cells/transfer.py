@@ -1,4 +1,4 @@
-"""Transfers between a level and the next coarser one, a column a job, with the weights of
+"""Transfers between a level and the next coarser one, one column per job; weights:
 :mod:`tehl_taichi.pressure.linear.transfer`."""
 
 from tehl_taichi.engine.language import ti
@@ -9,7 +9,7 @@ from tehl_taichi.pressure.linear.transfer import add_where_wet, doubled, restric
 
 @ti.func
 def restrict(J: ti.template(), G: ti.template(), fine: ti.template(), coarse: ti.template()):
-    """RES of the coarser level."""
+    """Set RES of the coarser level."""
     for q in range(coarse.columns):
         t, i = place(coarse, q)
         lower, centre, upper = transfer_weights(J, G, fine.number, t)
@@ -18,7 +18,7 @@ def restrict(J: ti.template(), G: ti.template(), fine: ti.template(), coarse: ti
 
 @ti.func
 def prolong(J: ti.template(), fine: ti.template(), coarse: ti.template()):
-    """COR of the finer level with the change of the coarser one."""
+    """Add COR of the coarser level to COR of the finer one."""
     share = ti.cast(COARSE_WEIGHT, J.dtype)
     for t in range(fine.blocks * coarse.nx):
         s, i = t // coarse.nx, t % coarse.nx

@@ -1,6 +1,6 @@
-"""Complex Fourier transforms by one thread a butterfly: Stockham's passes of :mod:`tehl_taichi.engine.fft`.
+"""Complex Fourier transforms with one thread per butterfly: Stockham's passes of :mod:`tehl_taichi.engine.fft`.
 
-Numbers are vectors (real, imaginary part) in a field of two rows, between which the passes change.
+Numbers are vectors (real, imaginary part) in a field of two rows; each pass reads one row and writes the other.
 """
 
 import math
@@ -9,16 +9,18 @@ from tehl_taichi.engine.language import ti
 
 
 class Pass:
-    """One pass over transforms of length n, from row `source` of the field to the other one: radix, parts, stride; turns: first
-    of its factors in the table."""
+    """One pass of transforms, from row `source` of the field to the other row.
+
+    radix, parts, stride: their product is the length; turns: first of its factors in the table.
+    """
 
     def __init__(self, radix, parts, stride, turns, source):
         self.radix, self.parts, self.stride, self.turns, self.source = radix, parts, stride, turns, source
-        self.distance = parts * stride  # of the inputs of a butterfly, and the number of butterflies
+        self.distance = parts * stride  # between inputs of a butterfly; also the number of butterflies
 
 
 def passes(lengths, n, source):
-    """Passes for the length n, whose factors `lengths` (:class:`tehl_taichi.engine.fft.Lengths`) keeps."""
+    """List of passes for the length n; lengths: :class:`tehl_taichi.engine.fft.Lengths` with its factors; source: first row."""
     first, count = lengths.place(n)
     return [Pass(*lengths.passes[first + m], (source + m) % 2) for m in range(count)]
 
@@ -31,7 +33,7 @@ def turned(z, c, s):
 
 @ti.func
 def times_i(z, sense):
-    """i z, or -i z where sense is -1."""
+    """i z, or -i z if sense is -1."""
     return ti.Vector([-sense * z[1], sense * z[0]])
 
 
@@ -48,7 +50,7 @@ def sum_of_turned(B: ti.template(), x: ti.template(), r: ti.template(), radix: t
 
 @ti.func
 def butterfly(B: ti.template(), T: ti.template(), one: ti.template(), t, first, pitch, backward: ti.template()):
-    """Butterfly t of the pass `one` over the numbers first, first + pitch, ...; backward: exp(+i ...), no factor 1/n."""
+    """Butterfly t of the pass `one` on the numbers at first, first + pitch, ...; backward: exp(+i ...), without 1/n."""
     sense = ti.cast(ti.static(-1.0 if backward else 1.0), B.dtype)
     x = [B[one.source, first + pitch * (t + m * one.distance)] for m in ti.static(range(one.radix))]
     p = t // one.stride
@@ -70,6 +72,6 @@ def butterfly(B: ti.template(), T: ti.template(), one: ti.template(), t, first, 
 
 @ti.func
 def store(B: ti.template(), T: ti.template(), one: ti.template(), p, r: ti.template(), where, z, sense):
-    """Result r of part p of a pass, times its factor."""
+    """Store result r of part p of a pass, times its factor."""
     w = T[0, one.turns + ti.static(one.radix - 1) * p + ti.static(r - 1)]
     B[ti.static(1 - one.source), where] = turned(z, w[0], sense * w[1])

@@ -1,4 +1,4 @@
-"""Work of a linear solve on vectors, a column a job; rows of V: see :mod:`tehl_taichi.pressure.linear.operations`."""
+"""Vector operations of a linear solve, one column per job; rows of V: :mod:`tehl_taichi.pressure.linear.operations`."""
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.simd import L, W, lanes_in, lanes_out
@@ -15,7 +15,7 @@ from tehl_taichi.pressure.reynolds import reynolds_row
 
 @ti.func
 def classify(S: ti.template(), J: ti.template(), G: ti.template(), level: ti.template(), rest, narrow, wide):
-    """KIND of every node of a level."""
+    """Set KIND of every node of a level; bounds: :func:`tehl_taichi.pressure.linear.line_solver.classify`."""
     for q in range(level.columns):
         s, i = place(level, q)
         up, down = ti.Vector([0.0] * W), ti.Vector([0.0] * W)
@@ -27,7 +27,7 @@ def classify(S: ti.template(), J: ti.template(), G: ti.template(), level: ti.tem
 
 @ti.func
 def start(F: ti.template(), fine: ti.template(), right: ti.template(), outflow: ti.template()):
-    """First vector of the basis and right-hand side of the preconditioner, from the rows `right` (scaled)."""
+    """Set the first vector of the basis and the right-hand side of the preconditioner from the scaled rows `right`."""
     for q in range(fine.columns):
         x, k = lanes_in(right, q), fine.first + q
         F.V[BASIS, q], F.V[OUTFLOW, q], F.J[RES, k] = x, lanes_in(outflow, q), x * F.J[SCALE, k]
@@ -35,7 +35,7 @@ def start(F: ti.template(), fine: ti.template(), right: ti.template(), outflow: 
 
 @ti.func
 def ones(J: ti.template(), fine: ti.template()):
-    """RES = rows of the Jacobian for a film change of 1 everywhere."""
+    """RES = rows of the Jacobian times a film change of 1 everywhere."""
     for k in range(fine.first, ti.static(fine.first + fine.columns)):
         out = J[BU, k] + J[BD, k]
         for t in ti.static(range(4)):
@@ -56,23 +56,36 @@ def dense(J: ti.template(), D: ti.template(), level: ti.template()):
 
 
 @ti.func
-def spread_lines(F: ti.template(), K: ti.template()):
-    """The distributed part of the line solutions, to be transformed."""
+def put_columns(F: ti.template(), N: ti.template(), K: ti.template(), most: ti.template(), source: ti.template()):
+    """Write the columns source(F, N, level, k, most), one of the next two functions, to the convolutions K."""
     for t in range(K.columns.total):
         for c, first, end in ti.static(K.columns.parts):
             if first <= t < end:
                 s, m = (t - first) // c.M, (t - first) % c.M
                 k, even, odd = c.level.first + s * c.level.n2 + 2 * m, L(F.J, 0.0), L(F.J, 0.0)
                 if 2 * m < c.level.n2:
-                    even = distributed_part(F, k)
+                    even = source(F, N, c.level, k, most)
                 if 2 * m + 1 < c.level.n2:
-                    odd = distributed_part(F, k + 1)
+                    odd = source(F, N, c.level, k + 1, most)
                 put_pair(K, c, s, m, even, odd)
 
 
 @ti.func
+def line_part(F: ti.template(), N: ti.template(), level: ti.template(), k, most: ti.template()):
+    """Distributed part of the line solutions in column k."""
+    return distributed_part(F, k)
+
+
+@ti.func
+def directed(F: ti.template(), N: ti.template(), level: ti.template(), k, most: ti.template()):
+    """Column k of the newest direction, which becomes the direction of the Jacobian."""
+    count = ti.cast(N[SCALARS, COUNT], ti.i32)
+    return change(F, level.first, k, BASIS + most + 1 + count, number(F, N[INVERSE, count]), number(F, N[SCALARS, RISE]))
+
+
+@ti.func
 def collect(F: ti.template(), K: ti.template(), lines: ti.template()):
-    """COR of the levels with lines."""
+    """Set COR of the levels with lines from their solutions and the result of the convolutions K."""
     for t in range(lines.columns.total):
         for n, part in ti.static(enumerate(lines.columns.parts)):
             one, first, end = ti.static(part)
@@ -83,7 +96,7 @@ def collect(F: ti.template(), K: ti.template(), lines: ti.template()):
 
 @ti.func
 def load_parts(F: ti.template(), fine: ti.template(), parts: ti.template()):
-    """Parts of the load of COR."""
+    """Partial sums of the load of COR."""
     for c in range(CHUNKS):
         out = ti.cast(0.0, ti.f64)
         for n in range(ti.static((fine.columns + CHUNKS - 1) // CHUNKS)):
@@ -95,7 +108,7 @@ def load_parts(F: ti.template(), fine: ti.template(), parts: ti.template()):
 
 @ti.func
 def lift(F: ti.template(), fine: ti.template()):
-    """Keep the answer to a change of H0, where wet, also as COR."""
+    """Keep the preconditioner's answer to a change of H0 (0 at dry nodes), and set COR to it."""
     for q in range(fine.columns):
         k = fine.first + q
         x = ti.select(is_kind(F.J, k, DRY_KIND), L(F.J, 0.0), F.J[COR, k])
@@ -103,30 +116,8 @@ def lift(F: ti.template(), fine: ti.template()):
 
 
 @ti.func
-def directed(F: ti.template(), N: ti.template(), fine: ti.template(), k, most: ti.template()):
-    """The newest direction in column k."""
-    count = ti.cast(N[SCALARS, COUNT], ti.i32)
-    return change(F, fine.first, k, BASIS + most + 1 + count, number(F, N[INVERSE, count]), number(F, N[SCALARS, RISE]))
-
-
-@ti.func
-def direct(F: ti.template(), N: ti.template(), K: ti.template(), most: ti.template()):
-    """Newest direction, to be transformed."""
-    for t in range(K.columns.total):
-        for c, first, end in ti.static(K.columns.parts):
-            if first <= t < end:
-                s, m = (t - first) // c.M, (t - first) % c.M
-                k, even, odd = c.level.first + s * c.level.n2 + 2 * m, L(F.J, 0.0), L(F.J, 0.0)
-                if 2 * m < c.level.n2:
-                    even = directed(F, N, c.level, k, most)
-                if 2 * m + 1 < c.level.n2:
-                    odd = directed(F, N, c.level, k + 1, most)
-                put_pair(K, c, s, m, even, odd)
-
-
-@ti.func
 def given(J: ti.template(), K: ti.template(), right: ti.template()):
-    """A given direction, to be transformed."""
+    """Take a given direction `right`, and write it to the convolution K."""
     for t in range(K.columns.total):
         for c, first, end in ti.static(K.columns.parts):
             if first <= t < end:
@@ -143,7 +134,7 @@ def given(J: ti.template(), K: ti.template(), right: ti.template()):
 
 @ti.func
 def rows(F: ti.template(), N: ti.template(), K: ti.template(), fine: ti.template()):
-    """Film of the direction, then the next vector of the basis: scaled rows of the Jacobian times the direction."""
+    """Set FILM of the direction, then the next vector of the basis: scaled rows of the Jacobian times the direction."""
     for q in range(fine.columns):
         s, i = place(fine, q)
         F.J[FILM, fine.first + q] = column(K, K.all[0], s, i) + number(F, N[SCALARS, RISE])
@@ -154,7 +145,7 @@ def rows(F: ti.template(), N: ti.template(), K: ti.template(), fine: ti.template
 
 @ti.func
 def update(F: ti.template(), N: ti.template(), fine: ti.template()):
-    """Newest vector less its components along the basis; the preconditioner's next right-hand side."""
+    """Subtract the components along the basis from the newest vector, and set the preconditioner's next right-hand side."""
     for q in range(fine.columns):
         count = ti.cast(N[SCALARS, COUNT], ti.i32) + 1
         x = F.V[BASIS + count, q]
@@ -165,7 +156,7 @@ def update(F: ti.template(), N: ti.template(), fine: ti.template()):
 
 @ti.func
 def finish(F: ti.template(), N: ti.template(), fine: ti.template(), most: ti.template(), out: ti.template()):
-    """The solution."""
+    """Write the solution to `out`."""
     for q in range(fine.columns):
         x = L(F.J, 0.0)
         for i in range(ti.cast(N[SCALARS, COUNT], ti.i32)):
@@ -175,6 +166,6 @@ def finish(F: ti.template(), N: ti.template(), fine: ti.template(), most: ti.tem
 
 @ti.func
 def copy(F: ti.template(), N: ti.template(), fine: ti.template(), out: ti.template()):
-    """The newest vector."""
+    """Write the newest vector to `out`."""
     for q in range(fine.columns):
         lanes_out(out, q, F.V[BASIS + ti.cast(N[SCALARS, COUNT], ti.i32) + 1, q])
