@@ -135,7 +135,7 @@ def _summary(plane, side, options, E_star):
            "stopped": path.why, "why": WHY[path.why]}
     if path.last:
         out["length_m"] = path.steps[-1]["length_m"]
-        out |= _doubts(plane, path, options, E_star)
+        out |= _checked(plane, path, options, E_star)
     return out
 
 
@@ -165,17 +165,25 @@ def _tension_depth(points, tension):
     return float(points[pressed[0] if pressed.size else -1].imag)
 
 
-def _doubts(plane, path, options, E_star):
-    """Error of K_I, from twice as many elements, and warnings."""
-    fine = load_crack(plane, path.points, options, E_star, 2 * options.elements)
-    K, finer = path.last.K, fine.K
-    largest = max(np.abs(finer).max(), 1e-30)
-    error = {"K_I_max": float(abs(K[0].max() - finer[0].max())), "K_II_range": float(abs(np.ptp(K[1]) - np.ptp(finer[1])))}
-    doubts, missed = [], sum(step["unsettled"] for step in path.steps)
-    if max(error.values()) > CLEAR * largest:
-        doubts.append(f"twice as many elements change the stress intensities by {max(error.values()) / largest:.0%}")
-    if missed > CLEAR * len(path.steps) * K.shape[1]:
-        doubts.append(f"{missed} moments did not converge between sticking and sliding")
+def _checked(plane, path, options, E_star):
+    """Errors of the stress intensities at the last length, number of moments that did not converge, and warnings."""
+    finer = load_crack(plane, path.points, options, E_star, 2 * options.elements).K
+    error = _element_error(path.last.K, finer)
+    return {"error_at_last_length": error, "unsettled": sum(step["unsettled"] for step in path.steps),
+            "doubts": list(_doubts(path, options, max(error.values()), max(np.abs(finer).max(), 1e-30)))}
+
+
+def _element_error(K, finer):
+    """{name: Pa sqrt(m)}: change of the stress intensities (2, moments) with twice as many elements."""
+    return {"K_I_max": float(abs(K[0].max() - finer[0].max())), "K_II_range": float(abs(np.ptp(K[1]) - np.ptp(finer[1])))}
+
+
+def _doubts(path, options, error, largest):
+    """Generator of warnings about a path; error, largest: of the stress intensities at the last length."""
+    missed = sum(step["unsettled"] for step in path.steps)
+    if error > CLEAR * largest:
+        yield f"twice as many elements change the stress intensities by {error / largest:.0%}"
+    if missed > CLEAR * len(path.steps) * path.last.K.shape[1]:
+        yield f"{missed} moments did not converge between sticking and sliding"
     if path.points.size > 2 and path.points[2:].imag.min() < 2 * options.distance:
-        doubts.append("the crack is closer to the surface than twice `--distance`, at which its direction is found")
-    return {"error_at_last_length": error, "unsettled": missed, "doubts": doubts}
+        yield "the crack is closer to the surface than twice `--distance`, at which its direction is found"

@@ -79,7 +79,7 @@ def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
     if rough:
         sentences = ["99th percentile of the index:", *sentences, *_spread(searches)]
     elif early:
-        verdict, sentences = _by_what_is_known(parts, worst, sentences, over, feature_wording.position_word(scene))
+        verdict, sentences = _by_resolved_part(parts, worst, sentences, over, feature_wording.position_word(scene))
     text, tone = _load_too(verdict, searches)
     return FATIGUE, text, tone, (*_alone_words(searches), *sentences, *_plane(fatigue))
 
@@ -109,24 +109,27 @@ def _judged_layers(searches):
     return [(where, Fi, error, judged(Fi, error)) for where, Fi, error in all_layers(searches)]
 
 
-def _by_what_is_known(parts, whole, sentences, over, whose):
-    """(headline and tone, sentences) if the grid does not resolve every pressure: by the resolved part of the passage, whose
-    index is a lower limit.
+def _by_resolved_part(parts, whole, sentences, over, whose):
+    """((headline, tone), sentences) if the grid resolves the pressure only in a part of the passage.
 
-    parts: {surface: summary of that part}; whole: worst index of the whole search over these moments; whose: text of the
-    position at its end.
+    parts: {surface: summary of the resolved part}. whole, sentences: worst state and sentences of the whole passage. over: text
+    about the passage; whose: text of the position at the end of the resolved part.
     """
     worst, places, known, early = _judged_indices(parts)
     end = f"{whose} up to {_place(next(iter(parts.values()))['to_x_a'])}"
     sentences = [f"While the grid resolves the pressure ({end}; the rest can only add):", *early,
                  f"{over[0].upper()}{over[1:]}, where the grid does not resolve the pressure:", *sentences]
+    return _resolved_headline(worst, whole, places, known, over), sentences
+
+
+def _resolved_headline(worst, whole, places, known, over):
+    """(headline, tone): worst, whole: states of the index in the resolved part, which is a lower limit, and in the passage."""
     if worst != BELOW:
         even = "even " if worst == ABOVE else ""
-        return headline(worst, places, known, f", {even}without the pressures that the grid does not resolve"), sentences
+        return headline(worst, places, known, f", {even}without the pressures that the grid does not resolve")
     if whole == BELOW:
-        return (f"Probably not: the index stays below 1, but {over} its error is unknown.", "no"), sentences
-    text = "Not decided: the index stays below 1 while the grid resolves the pressure, and exceeds 1 later."
-    return (text, "open"), sentences
+        return f"Probably not: the index stays below 1, but {over} its error is unknown.", "no"
+    return "Not decided: the index stays below 1 while the grid resolves the pressure, and exceeds 1 later.", "open"
 
 
 def _place(x):

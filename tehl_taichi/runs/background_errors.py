@@ -38,16 +38,29 @@ def takes_long(scene):
 
 
 @contextlib.contextmanager
-def background_answers(scene):
-    """Context manager: start the coarse-grid runs of a scene, in the background if the run is long and a core is idle.
+def coarse_grid_runs(scene):
+    """Context manager for the coarse-grid runs of a scene: in the background if the run is long and a core is idle.
 
     Gives a function of `until` (the result of :func:`tehl_taichi.march.accuracy.coarse_runs.resolved`, once it is known). That
-    returns a function of notify(done, total), which waits for the result of
-    :func:`tehl_taichi.march.accuracy.coarse_runs.answers`. The background process ends with the context.
+    function returns a function of notify(done, total), which returns the result of
+    :func:`tehl_taichi.march.accuracy.coarse_runs.answers`: it waits for the background process, or runs them itself. The
+    background process ends with the context.
     """
-    if not (coarse_runs.has_coarse_runs(scene) and takes_long(scene) and idle_cores() > 0):
-        yield lambda until: functools.partial(coarse_runs.answers, scene, until=lambda: until)
-        return
+    if coarse_runs.has_coarse_runs(scene) and takes_long(scene) and idle_cores() > 0:
+        with _in_background(scene) as with_until:
+            yield with_until
+    else:
+        yield functools.partial(_afterwards, scene)
+
+
+def _afterwards(scene, until):
+    """Function of notify(done, total) that makes the coarse-grid runs in this process."""
+    return functools.partial(coarse_runs.answers, scene, until=lambda: until)
+
+
+@contextlib.contextmanager
+def _in_background(scene):
+    """Start the background process, and end it with the context; gives the function of `until`."""
     read, write = os.pipe()
     with open(write, "wb", 0) as word, _started(scene, read, min(idle_cores(), runtime.ensure()["threads"])) as process:
         os.close(read)

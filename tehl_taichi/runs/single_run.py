@@ -178,11 +178,11 @@ def _finish(saved, state, steady, clock, progress):
     from tehl_taichi.runs import background_errors
     from tehl_taichi.runs.summary.summary import summarise
 
-    with background_errors.background_answers(saved.scene) as start_coarse:
+    with background_errors.coarse_grid_runs(saved.scene) as coarse_answers_until:
         saved.kept_states = _kept_states(saved.scene, state)
         run_in = _march(saved, state, progress)
         until = _resolved(saved)
-        coarse_answers = start_coarse(until)
+        coarse_answers = coarse_answers_until(until)
         alone = _fatigue(saved, until, progress)
         found, arrays = (alone.summaries, alone.to_arrays()) if alone else ({}, None)
         steel = _run_in_part(saved.scene, run_in) if run_in else {}

@@ -1,6 +1,7 @@
 """Grid that resolves the features of a scene, with a fine window if that takes less work."""
 
 import contextlib
+from typing import NamedTuple
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import idle_keys, resolution
@@ -17,34 +18,44 @@ COLUMNS, ROWS = (128, 64), (32, 16)  # (least, multiple) of a grid that is chose
 KEYS = "grid.nx", "grid.ny", "zoom.factor"
 
 
+class GridChoice(NamedTuple):
+    """Keys {full key: value} of a chosen grid, and a text about it; {} and "" if the grid of the scene stays."""
+
+    keys: dict
+    text: str
+
+
+UNCHANGED = GridChoice({}, "")
+
+
 def is_grid_open(scene, changes=()):
     """Whether neither the scene nor changes of it (full keys) set the grid."""
     return not {key for key in {*idle_keys.user_keys(scene), *changes} if key in KEYS}
 
 
 def choose_for_changes(base, keys):
-    """Grid for `base` with changes of these full keys: see :func:`choose_grid`."""
+    """The GridChoice for `base` with changes of these full keys: see :func:`choose_grid`."""
     steady = {key: value for key, value in keys.items() if not key.startswith("time.")} | {"time.steady_only": True}
     return choose_grid(base.replace(**steady))
 
 
 def choose_grid(scene):
-    """Choose a grid: ({full key: value}, text about them).
+    """Choose a grid, or a grid and a window, that resolves every feature; return the GridChoice.
 
-    ({}, "") if the present grid resolves every feature, or if every sufficient grid takes more than WORK. Only the contact of
+    UNCHANGED if the present grid resolves every feature, or if every sufficient grid takes more than WORK. Only the contact of
     the scene matters, not its passage.
     """
     sights = resolution.sights(scene, passing=True)
     if all(sight.cells >= ENOUGH for sight in sights):
-        return {}, ""
+        return UNCHANGED
     ways = ((aim, factor) for aim in AIMS for factor in FACTORS)
     found = (_grid_and_window(scene, sights, aim, factor) for aim, factor in ways)
-    return next((changes for changes in found if changes), ({}, ""))
+    return next((choice for choice in found if choice), UNCHANGED)
 
 
 def _grid_and_window(scene, sights, aim, factor):
-    """(changes, text) of a grid with `aim` cells per length in a window `factor` times as fine; None if it takes more than
-    WORK, or if the window does not fit.
+    """The GridChoice with `aim` cells per length in a window `factor` times as fine (0: without a window); None if it takes
+    more than WORK, or if the window does not fit.
     """
     cells = aim / max(factor, 1)
     ny = max(_count(scene, sights, "ny", cells, ROWS), 0 if factor else scene.grid.ny)
@@ -53,7 +64,7 @@ def _grid_and_window(scene, sights, aim, factor):
         changes = {"grid.nx": nx, "grid.ny": ny, **({"zoom.factor": factor} if factor else {})}
         work = _window_work(scene, factor) * _work(nx, ny) / _work(scene.grid.nx, scene.grid.ny)
         if work <= WORK and _has_room(scene, changes):
-            return changes, _words(scene, sights, changes, work)
+            return GridChoice(changes, _words(scene, sights, changes, work))
     return None
 
 

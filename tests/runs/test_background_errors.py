@@ -43,7 +43,7 @@ def nowhere(monkeypatch):
 def test_they_tell_what_they_tell_after_the_run(idle_core, monkeypatch):
     here, parts = coarse_runs.answers(SHORT), []
     monkeypatch.setattr(coarse_runs, "answers", None)
-    with background_errors.background_answers(SHORT) as told:
+    with background_errors.coarse_grid_runs(SHORT) as told:
         there = told(None)(lambda *part: parts.append(part))
     assert [one.keys() for one in there] == [one.keys() for one in here]
     assert list(dict.fromkeys(parts)) == [(0, 1), (1, 1)] and parts[-1] == (1, 1)
@@ -56,7 +56,7 @@ def test_they_tell_what_they_tell_after_the_run(idle_core, monkeypatch):
 
 def test_they_hear_up_to_where_the_run_is_resolved(idle_core, nowhere):
     passing = SHORT.replace(**{"time.steps": -1, "time.x_end": -0.2})
-    with background_errors.background_answers(passing) as told:
+    with background_errors.coarse_grid_runs(passing) as told:
         there = told(-0.5)()
     found = there[-1]["values"]
     assert 0 < found["a:resolved_Fi_max"]["value"] < found["a:Fi_max"]["value"]
@@ -70,7 +70,7 @@ def test_only_an_idle_core_has_them_beside(taichi_cpu, monkeypatch):
         monkeypatch.setattr(job, "_lane", working)
         assert max(0, background_errors.idle_cores()) == expected
         monkeypatch.setattr(background_errors, "_started", sleeper if expected else no_process)
-        with background_errors.background_answers(SHORT) as told:
+        with background_errors.coarse_grid_runs(SHORT) as told:
             assert (told(None).func is coarse_runs.answers) == (not expected)
 
 
@@ -81,7 +81,7 @@ def test_they_have_the_idle_cores_and_no_more_threads_than_the_run(taichi_cpu, m
     monkeypatch.setattr(background_errors.cores, "available", lambda: threads + idle)
     monkeypatch.setattr(background_errors, "_started", lambda scene, pipe, count: given.append(count) or sleeper())
     given = []
-    with background_errors.background_answers(SHORT):
+    with background_errors.coarse_grid_runs(SHORT):
         assert given == [min(idle, threads)]
 
 
@@ -102,14 +102,14 @@ def test_only_long_runs_have_them_beside():
 
 def test_who_wants_none_has_no_process(idle_core, monkeypatch):
     monkeypatch.setattr(background_errors, "_started", no_process)
-    with background_errors.background_answers(SHORT.replace(**{"numerics.estimate_error": False})) as told:
+    with background_errors.coarse_grid_runs(SHORT.replace(**{"numerics.estimate_error": False})) as told:
         assert told(None).func is coarse_runs.answers
 
 
 def test_they_end_with_their_run(idle_core, nowhere, monkeypatch):
     processes, started = [], background_errors._started
     monkeypatch.setattr(background_errors, "_started", lambda *of: processes.append(started(*of)) or processes[0])
-    with pytest.raises(KeyboardInterrupt), background_errors.background_answers(SHORT):
+    with pytest.raises(KeyboardInterrupt), background_errors.coarse_grid_runs(SHORT):
         raise KeyboardInterrupt
     assert processes[0].returncode == -signal.SIGKILL
 
@@ -118,7 +118,7 @@ def test_where_they_die_they_are_worked_out_here(idle_core, monkeypatch):
     monkeypatch.setattr(background_errors, "_started", lambda *_: subprocess.Popen(
         [sys.executable, "-c", "print('[half an ans'); raise SystemExit(1)"], stdout=subprocess.PIPE))
     monkeypatch.setattr(coarse_runs, "answers", lambda one, notify, until: [one.name, until()])
-    with background_errors.background_answers(SHORT) as told:
+    with background_errors.coarse_grid_runs(SHORT) as told:
         assert told(0.25)() == ["gear", 0.25]
 
 

@@ -40,17 +40,27 @@ def ring_scene(base, changes, name, contact, dry, u_m, srr, passes, choose=False
            "contact.radius_y": math.inf if dry.kind == LINE else contact.R_y, "contact.load": dry.scene_load,
            "operation.u_m": u_m, "operation.srr": srr if abs(srr) > SMALLEST else 0.0}
     given = {full_name(key): value for key, value in changes.items()}
-    if not passes:
-        given = {key: value for key, value in given.items() if not key.startswith(OF_PASSAGES)}
-    grid = {} if passes or any(key.startswith("grid.") for key in given) else STEADY_GRID
     try:
-        wider = room(base.replace(**bodies(given)), dry.scene_load, contact.R_x) if passes and dry.kind == LINE else {}
-        kept = {key: value for key, value in wider.items() if key not in given}
-        keys, start = {**own, **grid, **kept, **given}, base if passes else smooth(base)
-        fine, words = grid_for_features.choose_for_changes(start, keys) if choose and passes else ({}, "")
-        return start.replace(**{**keys, **fine, "time.steady_only": not passes}), words
+        if not passes:
+            return _steady(base, own, given), ""
+        keys = {**own, **_room_of(base, given, contact, dry), **given}
+        choice = grid_for_features.choose_for_changes(base, keys) if choose else grid_for_features.UNCHANGED
+        return base.replace(**{**keys, **choice.keys, "time.steady_only": False}), choice.text
     except SceneError as error:
         raise SceneError(f"{contact.ring} ring: {error}") from None
+
+
+def _steady(base, own, given):
+    """Scene of a ring without features; own: keys of the ring, given: changes by the caller, {full key: value}."""
+    kept = {key: value for key, value in given.items() if not key.startswith(OF_PASSAGES)}
+    grid = {} if any(key.startswith("grid.") for key in kept) else STEADY_GRID
+    return smooth(base).replace(**{**own, **grid, **kept, "time.steady_only": True})
+
+
+def _room_of(base, given, contact, dry):
+    """Keys of a larger domain for features in a line contact, without those that the caller gives; {} for a point contact."""
+    wider = room(base.replace(**bodies(given)), dry.scene_load, contact.R_x) if dry.kind == LINE else {}
+    return {key: value for key, value in wider.items() if key not in given}
 
 
 def bodies(changes):

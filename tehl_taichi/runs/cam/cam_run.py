@@ -7,7 +7,7 @@ from tehl_taichi.runs.bearing.ring_scenes import base_of, smooth
 from tehl_taichi.runs.cam import cam_table
 from tehl_taichi.runs.cam.stored_cam import Cam
 from tehl_taichi.runs.flank.flank_run import first_free_folder
-from tehl_taichi.runs.flank.line_contacts import scene_and_grid_at
+from tehl_taichi.runs.flank.line_contacts import scene_at, scene_with_grid_at
 from tehl_taichi.runs.flank.outcomes import summaries
 from tehl_taichi.runs.progress import Progress
 from tehl_taichi.scene import Scene, grid_for_features
@@ -36,8 +36,8 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     changes = resolve([(words(key, value), key, value) for key, value in (changes or {}).items()])
     passes = {"time.steady_only": not base.features or steady}
     own, choose = base if base.features and not steady else smooth(base), grid_for_features.is_grid_open(start, changes)
-    found = {n: scene_and_grid_at(own, {**changes, **passes}, path.stem, n + 1, at, choose and feature is not None)
-             for n, at in enumerate(places) if not at.without_film}
+    chosen = scene_with_grid_at if choose and feature is not None and not steady else _with_own_grid
+    found = {n: chosen(own, {**changes, **passes}, path.stem, n + 1, at) for n, at in enumerate(places) if not at.without_film}
     scenes = {n: one for n, (one, _) in found.items()}
     if not scenes:
         raise SceneError(f"table {path}: no angle has a film; the first one: {places[0].without_film}")
@@ -46,6 +46,11 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     for grid in (grid for _, grid in found.values() if grid):
         (progress or Progress()).say(grid)
     return _run(Cam(target, cam_record(path, target, places, scenes)), scenes, workers, threads, progress)
+
+
+def _with_own_grid(*position):
+    """(scene of a position on the grid of its base scene, no text); arguments: :func:`scene_at`."""
+    return scene_at(*position), ""
 
 
 def cam_record(path, folder, places, scenes):

@@ -1,5 +1,6 @@
 """Scene of a position: its line contact, with everything else from the scene of the flank."""
 
+import contextlib
 import math
 
 from tehl_taichi.errors import SceneError
@@ -18,25 +19,35 @@ def scene_at(base, changes, name, n, position):
     Temperatures are computed at all positions unless switched off, also for pure rolling at the pitch point, so that one table
     compares like with like.
     """
-    return scene_and_grid_at(base, changes, name, n, position, False)[0]
+    with _errors_at(position):
+        return base.replace(**_keys_at(base, changes, name, n, position))
 
 
-def scene_and_grid_at(base, changes, name, n, position, choose=True):
-    """(scene of a position as in :func:`scene_at`, text about its grid); choose: whether the grid is chosen for the
-    features.
-    """
+def scene_with_grid_at(base, changes, name, n, position):
+    """(scene of a position as in :func:`scene_at`, with a grid chosen for the features that pass; text about the grid)."""
+    with _errors_at(position):
+        keys = _keys_at(base, changes, name, n, position)
+        choice = grid_for_features.choose_for_changes(base, keys)
+        return base.replace(**keys, **choice.keys), choice.text and f"{where(position)}: {choice.text}"
+
+
+@contextlib.contextmanager
+def _errors_at(position):
+    """Name the position in every SceneError."""
     try:
-        given = {full_name(key): value for key, value in changes.items()}
-        _check_free(given)
-        plain = _without_passage(base, given)
-        steady = given.get("time.steady_only", base.time.steady_only)
-        own = _own(plain, name, n, position, "operation.temperature" in given)
-        wider = {} if steady else room(plain, position.load, position.R)
-        keys = {**own, **given, **wider}
-        fine, words = grid_for_features.choose_for_changes(base, keys) if choose and not steady else ({}, "")
-        return base.replace(**keys, **fine), words and f"{where(position)}: {words}"
+        yield
     except SceneError as error:
         raise SceneError(f"position {where(position)}: {error}") from None
+
+
+def _keys_at(base, changes, name, n, position):
+    """{full key: value} of all changes of `base` for a position. Raises SceneError for a key that the position determines."""
+    given = {full_name(key): value for key, value in changes.items()}
+    _check_free(given)
+    plain = _without_passage(base, given)
+    steady = given.get("time.steady_only", base.time.steady_only)
+    own = _own(plain, name, n, position, "operation.temperature" in given)
+    return {**own, **given, **({} if steady else room(plain, position.load, position.R))}
 
 
 def _check_free(given):
