@@ -39,7 +39,7 @@ def run(
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
     zoom: Any = typer.Option(None, parser=whole_or_auto, metavar="2|4|8|auto",
-                             help="add a fine window that rides with the feature, 2, 4 or 8 times as fine as the grid; auto: "
+                             help="add a fine window that moves with the feature, 2, 4 or 8 times as fine as the grid; auto: "
                                   "no window if the grid suffices, otherwise the first factor that does"),
     run_in: Optional[int] = typer.Option(None, help="largest number of run-in passages before the stored passage; steel "
                                                     "of bodies with a yield stress can yield in them"),
@@ -136,7 +136,7 @@ def zoom(
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
     quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
 ):
-    """Add a fine window that rides with the feature to a finished run; the steps of the run are kept.
+    """Add a fine window that moves with the feature to a finished run; the steps of the run are kept.
 
     Stresses, fatigue and error bars are computed again with the window.
 

@@ -17,7 +17,7 @@ TARGETS = (0.05, 0.01, 0.001)
 COLUMNS = {"steady line": (64, 128, 256, 512, 1024), "steady circle": (64, 128, 256),
            "passage": (64, 128, 256, 512), "thermal passage": (64, 128, 256, 512)}
 QUICK = {"steady line": (64, 128, 256), "steady circle": (32, 64, 128), "passage": (32, 64, 128)}
-# (columns, factor of a window that rides with the feature over the whole passage) of a family
+# (columns, factor of a window that moves with the feature over the whole passage) of a family
 WINDOWS = {"passage": ((64, 4), (128, 4)), "thermal passage": ((64, 4), (128, 4))}
 QUICK_WINDOWS = {"passage": ((64, 2),)}
 QUANTITIES = ("h_c_m", "h_min_m", "p_max_Pa", "film_max_C", "Fi_max")

@@ -174,7 +174,7 @@ def resume(path: Name, *, steps: int | None = None, threads: int | None = None, 
 
 
 def zoom(path: Name, factor: int | str = 4, *, threads: int | None = None, progress: "Progress | None" = None) -> "Run":
-    """Add a fine window that rides with the feature to a finished run; the steps of the run are kept.
+    """Add a fine window that moves with the feature to a finished run; the steps of the run are kept.
 
     Stresses, the fatigue search and error bars are computed again with the window. Interrupted, `resume` finishes it.
 

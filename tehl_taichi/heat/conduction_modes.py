@@ -51,9 +51,8 @@ def widths(peclet, a, b):
     """Widths (w_x, w_y) of the spot that describes sideways conduction of an elliptic contact, in the unit of its half-axes a
     and b.
 
-    peclet: u a/alpha. Fitted to exact steady temperatures of moving half-spaces under Hertzian fluxes (docs/decisions/03): the
-    largest and the mean temperature per flux are right within 5 % for circles and ellipses along the motion (b/a from 0.25 to
-    1), within 8 % for b/a up to 8, at all speeds.
+    peclet: u a/alpha. Fitted to exact steady temperatures of moving half-spaces under Hertzian fluxes (docs/decisions/03);
+    errors: :data:`tehl_taichi.scene.slow_surfaces.ERRORS`.
     """
     ratio = b / a
     return a * (0.94 + 0.88 * ratio**0.44 * peclet**0.6), b * (0.89 * ratio**-0.03 + 0.014 * peclet * ratio**1.7)

@@ -111,11 +111,11 @@ def beyond_relation(scene):
 
 
 def left_out_of_window(scene):
-    """Features that the window of a zoom does not ride with."""
+    """Features that the window of a zoom does not follow."""
     followed = scene.reference.name
     if scene.zooms and any(surface.name != followed for surface, _ in scene.passing):
         other = "b" if followed == "a" else "a"
-        yield with_data(f"the window of --zoom rides with the features of surface {followed}; of those of surface {other} it "
+        yield with_data(f"the window of --zoom moves with the features of surface {followed}; of those of surface {other} it "
                         "resolves only what lies in it at the same time", surface=followed)
 
 

@@ -427,7 +427,7 @@ class Output:
 @documented
 @dataclass(frozen=True, repr=False)
 class Zoom:
-    """A fine window that rides with the feature through the run.
+    """A fine window that moves with the feature through the run.
 
     Examples
     --------
