@@ -1,4 +1,4 @@
-"""Whether a finished run needs a fine window, and which factors to try."""
+"""Need of a finished run for a fine window, and the factors to try."""
 
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.scene import resolution
