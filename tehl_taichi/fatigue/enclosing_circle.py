@@ -31,6 +31,7 @@ def circle3(ax, ay, bx, by, cx, cy):
 
 @ti.func
 def inside(c, x, y):
+    """Whether the point (x, y) lies in the circle c."""
     return (x - c[0]) ** 2 + (y - c[1]) ** 2 <= c[2] * (1 + INSIDE)
 
 
@@ -75,8 +76,9 @@ def pivot(px, py, m, fx, fy):
 
 @ti.func
 def enclose(a: ti.template(), b: ti.template(), row, steps, i0, i1):
-    """Smallest circle around the points (a, b)[row, :steps]: its radius, and the points on it with the weights that give its
-    centre. i0, i1: two distant points to start from.
+    """Smallest circle around the points (a, b)[row, :steps]: (radius, points on it, weights of these points).
+
+    The weighted sum of the points is the centre. i0, i1: two distant points to start from.
 
     Add the farthest point, solve the problem of at most four points exactly, repeat.
     """

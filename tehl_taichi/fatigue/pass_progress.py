@@ -4,8 +4,10 @@ from tehl_taichi.fatigue.depth_search import passes
 
 
 class PassProgress:
-    """Called with (done, total) parts of each of `passes` passes; calls progress(done, total) in hundredths of a pass, with one
-    total and never decreasing. progress: or None.
+    """Progress function of a search with `passes` consecutive passes.
+
+    It is called with (done, total) parts of the present pass, and calls progress(done, total) in hundredths of a pass: with one
+    total, never decreasing. progress: a function, or None.
     """
 
     EACH = 100

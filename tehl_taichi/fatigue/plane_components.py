@@ -14,6 +14,7 @@ def stress(S: ti.template(), row, t):
 
 @ti.func
 def mean_stress(S: ti.template(), row, t):
+    """Mean normal stress of this point and moment."""
     return (S[row, t, 0] + S[row, t, 1] + S[row, t, 2]) / 3
 
 

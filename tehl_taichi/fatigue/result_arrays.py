@@ -1,4 +1,4 @@
-"""Arrays of a :class:`tehl_taichi.fatigue.search_result.SearchResult`, by its fields."""
+"""Arrays of a :class:`tehl_taichi.fatigue.search_result.SearchResult`: {name of its field: array}."""
 
 import numpy as np
 

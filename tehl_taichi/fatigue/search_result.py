@@ -48,13 +48,14 @@ class SearchResult:
     Attributes
     ----------
     summary : dict
-        Numbers in SI units, at the surface, and below it in its "below"; "surface": "a" or "b", whose they are.
+        Numbers in SI units, at the surface, and below it in its "below"; "surface": the searched body, "a" or "b".
     feature_frame_x, feature_frame_y : numpy.ndarray
-        Points of the surface, m: from the centre of the feature that it carries, or from the place that meets this at X = 0.
+        Points of the surface, m: from the centre of its feature, or from the place that the other body's feature meets at X =
+        0.
     findley_stress, Fi, sigma1_max, plane_theta, plane_phi : numpy.ndarray
         At the surface, (x, y).
     passed : numpy.ndarray
-        Points of the whole surface that this one stands for in statistics, (x, y); 0 where no feature passes.
+        Number of points of the whole surface that this one represents in statistics, (x, y); 0 where no feature passes.
     fatigue_depth, under_row_depth : numpy.ndarray
         Depths searched, m; `under_row_depth`: those under a row, where other depths were listed.
     findley_stress_under_row, findley_stress_contact_alone : numpy.ndarray
@@ -64,14 +65,14 @@ class SearchResult:
     findley_stress_at_depth : numpy.ndarray
         At all points of the depths listed, (depth, x, y).
     limit_under_row, limit_at_worst_depth, limit_at_depth : numpy.ndarray
-        Fatigue limit at these depths, Pa; None where it is that of the summary.
+        Fatigue limit at these depths, Pa; None if the limit of the summary holds at all depths.
     worst, worst_below : dict
         Stress history of the critical point of the surface, and of that below: x_a (m), stress (times, 6) Pa, the last one
         unloaded, normal (3,), circle around the shear path (centre along dip and strike, radius; Pa).
     resolved : SearchResult
-        Search of the moments while the grid resolves the pressure; None where these are all.
+        Search of the moments while the grid resolves the pressure; None if it resolves all.
     other : SearchResult
-        Search of the other body, which is not worse; None where one body was searched.
+        Search of the other body, which is not worse; None if one body was searched.
 
     Examples
     --------

@@ -1,19 +1,20 @@
-"""Reduction of the moments of a stress history for the first part of a search: moments between whose chords all others lie.
+"""Reduction of the moments of a stress history for the first part of a search.
 
-Shear from a centre and normal stress are convex in the stress: on no plane does a moment on the chord of two others exceed the
-worse of them, and one beside it by more than its distance. Half of a history hardly changes, far from the contact.
+All other moments lie close to the chords between the kept ones. Shear (from any centre) and normal stress are convex functions
+of the stress. So on every plane a moment on a chord is at most as bad as the worse end, and a moment beside it is worse by at
+most its distance. Half of a history hardly changes, far from the contact.
 """
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.fatigue.plane_components import stress
 
-OFF = 2e-4  # of the range of the stresses: 110 of 539 moments of the gear's passage on 512 columns are left
-LONGEST = 32  # moments between two that are kept
+OFF = 2e-4  # largest distance over the range of the stresses: 110 of 539 moments of the gear's passage on 512 columns are kept
+LONGEST = 32  # largest number of moments from one kept moment to the next
 
 
 @ti.func
 def extent(S: ti.template(), row, steps):
-    """Least and largest of every stress component."""
+    """(smallest, largest) of every stress component, each (6,)."""
     low, high = stress(S, row, 0), stress(S, row, 0)
     for t in range(1, steps):
         s = stress(S, row, t)

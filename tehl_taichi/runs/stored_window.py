@@ -1,4 +1,4 @@
-"""Fatigue of a finished run with its zoom window, by the fields of the window that the store holds."""
+"""Fatigue of a finished run with its zoom window, from the stored fields of the window."""
 
 from dataclasses import replace
 
@@ -14,8 +14,10 @@ from tehl_taichi.view.zoom_window import EXTREMES, ZoomWindow
 
 
 def refined(store, scene, alone, progress=None, until=None):
-    """The SearchResult of the run with its window, as the run itself finds it: at the points that matter in `alone`, the
-    SearchResult of the run without it; without a window `alone`. scene: of the run, with other constants of fatigue.
+    """Search the run with its window, as the run itself does; return the SearchResult, `alone` if it has no window.
+
+    scene: of the run, with other constants of fatigue. alone: SearchResult of the run without its window, which determines the
+    searched points. until: position (a) of the feature, see :func:`tehl_taichi.runs.zoomed_run.searched`.
     """
     window = ZoomWindow.of(store)
     if window is None or not window.entries.size:
@@ -35,13 +37,13 @@ def _passage(store, window):
 
 
 def _completed(summaries, run):
-    """{surface: summary} with what the search of the run alone has for it: statistics, and the smooth contact."""
+    """{surface: summary} with the statistics and the smooth contact of the search without the window."""
     found = zoomed_points.completed(summaries, run)
     return {name: {**one, **{key: run[name][key] for key in ("contact_alone",) if key in run[name]}}
             for name, one in found.items()}
 
 
 def _with_summaries(found, summaries):
-    """The SearchResult with these summaries of its bodies."""
+    """The SearchResult with other summaries {surface: summary} of its bodies."""
     other = found.other and replace(found.other, summary=summaries[found.other.summary["surface"]])
     return replace(found, summary=summaries[found.summary["surface"]], other=other)

@@ -12,7 +12,11 @@ FIRST = "zoom_"  # begins their names
 
 
 class ZoomWindow:
-    """Window of the run in `store`: `entries` of the run, distances `x` from its first column, and `y` (m)."""
+    """Zoom window of the run in `store`.
+
+    entries: numbers of the run's entries with a window; x: distances (m) from the first column of the window; y: m; lefts:
+    position of the first column at each entry, m.
+    """
 
     def __init__(self, store):
         self.store, self.entries = store, store.map("zoom_entry").astype(int)
@@ -59,6 +63,6 @@ class ZoomWindow:
         return extreme(self._moments(field), axis=(1, 2))
 
     def row(self, y):
-        """Row number of the window at a row of the run, at y (m); None without one."""
+        """Number of the window's row at y (m); None if the window has no row there."""
         row = int(np.argmin(np.abs(self.y - y)))
         return row if abs(self.y[row] - y) < 1e-3 * (self.x[1] - self.x[0]) else None

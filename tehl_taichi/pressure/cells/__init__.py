@@ -1,5 +1,5 @@
-"""The kernels of a film of one temperature for graphics cards: those of this folder's parent, a column of a block a job.
+"""Kernels of an isothermal film for graphics cards: those of the parent folder, with one column of a block per job.
 
-`kernels` has their loops around the same functions, `twins` says which stands for which, `bending` makes the film, `newton`
-keeps the vectors of a Newton step on the card. Imported only where it is wanted.
+`kernels` are loops around the functions of the parent folder; `twins` names the kernel that each one replaces. `bending`
+computes the film; `newton` keeps the vectors of a Newton step on the card. Imported only if a run uses a graphics card.
 """

@@ -1,4 +1,4 @@
-"""The film under the pressure in the table: its deflection, in double precision, by threads."""
+"""Film under the pressure in the table: the deflection in double precision, on the card."""
 
 import numpy as np
 
@@ -12,7 +12,8 @@ from tehl_taichi.pressure.linear.cells.sizes import place
 
 @ti.func
 def bends(S: ti.template(), c: ti.template(), s, k):
-    """Pressure that bends the bodies: not that of the sides of a point contact, see :mod:`tehl_taichi.pressure.deflection`."""
+    """Pressure of column k that bends the bodies: without the sides of a point contact, see
+    :mod:`tehl_taichi.pressure.deflection`."""
     out = S[P, k]
     if ti.static(not c.endless):
         for u in ti.static(range(W)):
@@ -23,7 +24,7 @@ def bends(S: ti.template(), c: ti.template(), s, k):
 
 @ti.kernel
 def bend(F: ti.template(), H0: ti.f64):
-    """H = undeformed gap + deflection by P + H0 of the finest level."""
+    """Set H of the finest level: undeformed gap + deflection by P + H0."""
     c = ti.static(F.convolution)
     for t in range(F.K.columns.total):
         s, m = t // c[0].M, t % c[0].M
@@ -41,14 +42,14 @@ def bend(F: ti.template(), H0: ti.f64):
 
 
 class Memory:
-    """Fields that :func:`bend` sees."""
+    """Fields that :func:`bend` uses; K: the Convolutions of the deflection."""
 
     def __init__(self, levels, K):
         self.S, self.K, self.convolution = levels.S, K, K.all
 
 
 class CellBending:
-    """Sets the film of `levels` (see :class:`tehl_taichi.pressure.levels.Levels`)."""
+    """Computes the film of a :class:`tehl_taichi.pressure.levels.Levels`."""
 
     def __init__(self, levels):
         shape = convolution.transform_sizes([(levels.nx, levels.ny)], [])[0]
@@ -56,5 +57,5 @@ class CellBending:
         self.memory = Memory(levels, K)
 
     def bend(self, H0):
-        """H from the pressure in the table and the rigid approach H0."""
+        """Set H from the pressure in the table and the rigid approach H0."""
         bend(self.memory, H0)

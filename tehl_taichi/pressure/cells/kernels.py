@@ -1,4 +1,5 @@
-"""Loops over all columns of all blocks at once; each kernel takes what its namesake takes."""
+"""Parallel loops over all columns of all blocks. Each kernel does the work of its namesake in the parent folder (or in
+:mod:`tehl_taichi.engine.simd`), with the same arguments; `twins` lists the pairs."""
 
 from tehl_taichi.engine.elementary import exp, maximum
 from tehl_taichi.engine.language import ti
@@ -67,18 +68,19 @@ from tehl_taichi.pressure.storage_term import COUETTE, LOST, START, Frame, diffe
 from tehl_taichi.pressure.tractions import Stack, on_bodies, store
 from tehl_taichi.pressure.upwind import couette_weights
 
-ALONG, ABOVE = tuple(range(5)), tuple(range(5, 10))  # rows of the table of faces: their numbers ahead and above
+ALONG, ABOVE = tuple(range(5)), tuple(range(5, 10))  # rows of the table of faces: of the face ahead and of the face above
 FACES = 10
 
 
 @ti.func
 def place(q, n2):
-    """Block and column along x of column q."""
+    """(block, number along x) of column q."""
     return q // n2, q % n2
 
 
 @ti.kernel
 def put(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone: ti.template()):
+    """Write `values` to a row of the table of level l."""
     nx, ny, off = cells(G, l)
     for q in range((ny // W + 1) * (nx + 1)):
         s, i = place(q, nx + 1)
@@ -87,6 +89,7 @@ def put(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone
 
 @ti.kernel
 def get(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone: ti.template()):
+    """Read a row of the table of level l into `values`."""
     nx, ny, off = cells(G, l)
     for q in range((ny // W + 1) * (nx + 1)):
         s, i = place(q, nx + 1)
@@ -98,6 +101,7 @@ def get(S: ti.template(), G: Table, l: ti.i32, row: ti.i32, values: Table, alone
 
 @ti.kernel
 def save(S: ti.template(), G: Table, row: ti.i32, out: Flat, alone: ti.template()):
+    """Copy a row of the finest level to `out`."""
     nx, ny, off = cells(G, 0)
     for q in range((ny // W + 1) * (nx + 1)):
         lanes_out(out, q, S[row, off + q])
@@ -105,6 +109,7 @@ def save(S: ti.template(), G: Table, row: ti.i32, out: Flat, alone: ti.template(
 
 @ti.kernel
 def advance(S: ti.template(), G: Table, old: Flat, step: LinearFlat, t: Flat, alone: ti.template()):
+    """Set P to the old pressure plus t[0] times the step, not below 0, where the pressure is unknown."""
     nx, ny, off = cells(G, 0)
     for q in range((ny // W + 1) * (nx + 1)):
         p = lanes_in(old, q)
@@ -114,6 +119,7 @@ def advance(S: ti.template(), G: Table, old: Flat, step: LinearFlat, t: Flat, al
 @ti.kernel
 def laws(S: ti.template(), G: Table, oil: ti.template(), conditions: Flat, rows: ti.template(), slopes: ti.template(),
          alone: ti.template()):
+    """Set density and viscosity of the finest level, or (slopes) their derivatives by the pressure."""
     nx, ny, off = cells(G, 0)
     for k in range(off, off + (ny // W + 1) * (nx + 1)):
         scene = read(Conditions, conditions)
@@ -132,7 +138,7 @@ def laws(S: ti.template(), G: Table, oil: ti.template(), conditions: Flat, rows:
 @ti.kernel
 def residual(T: ti.template(), S: ti.template(), G: Table, couette: ti.template(), skew: ti.template(), rheology: ti.template(),
              alone: ti.template()):
-    """Fluxes of the faces ahead and above first, in the table T."""
+    """Set the residual R; the fluxes of the faces ahead and above come first, in the table T."""
     nx, ny, off = cells(G, 0)
     for k in range(off, off + (ny // W + 1) * (nx + 1)):
         here = node(S, k, nx + 1, 0, skew)
@@ -154,12 +160,13 @@ def residual(T: ti.template(), S: ti.template(), G: Table, couette: ti.template(
 
 @ti.func
 def weighted(weight, value):
-    """weight times value, 0 where there is no weight: what is beyond the first row need not be a number."""
+    """weight * value, and 0 for weight 0: values beyond the first row may be nan."""
     return ti.select(weight > 0.0, weight * value, V(0.0))
 
 
 @ti.func
 def keep_face(T: ti.template(), rows: ti.template(), k, face):
+    """Store a face in the table of faces."""
     T[rows[0], k], T[rows[1], k], T[rows[2], k] = face.p0, face.p1, face.h0
     T[rows[3], k], T[rows[4], k] = face.h1, face.eps
 
@@ -168,7 +175,7 @@ def keep_face(T: ti.template(), rows: ti.template(), k, face):
 def linearise(T: ti.template(), S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, first: ti.i32, last: ti.i32,
               known: Flat, couette: ti.template(), slope: ti.template(), skew: ti.template(), rheology: ti.template(),
               alone: ti.template()):
-    """Faces ahead and above first, in the table T."""
+    """Set the Jacobian rows; the faces ahead and above come first, in the table T."""
     for n in range((last - first) * (int(G[0, NX]) + 1)):
         b, i = first + n // (int(G[0, NX]) + 1), n % (int(G[0, NX]) + 1)
         l = blocks[b, 0]
@@ -188,11 +195,13 @@ def linearise(T: ti.template(), S: ti.template(), J: ti.template(), G: Table, bl
 
 @ti.func
 def face_of(T: ti.template(), rows: ti.template(), k):
+    """Face of column k from the table of faces."""
     return Face(p0=T[rows[0], k], p1=T[rows[1], k], h0=T[rows[2], k], h1=T[rows[3], k], eps=T[rows[4], k], base=V(0.0))
 
 
 @ti.func
 def face_beneath(T: ti.template(), rows: ti.template(), k, n2):
+    """Face above the row below column k, from the table of faces."""
     return Face(p0=below(T, rows[0], k, n2), p1=below(T, rows[1], k, n2), h0=below(T, rows[2], k, n2),
                 h1=below(T, rows[3], k, n2), eps=below(T, rows[4], k, n2), base=V(0.0))
 
@@ -200,7 +209,7 @@ def face_beneath(T: ti.template(), rows: ti.template(), k, n2):
 @ti.func
 def node_rows(T: ti.template(), S: ti.template(), J: ti.template(), G: ti.template(), l, s, i, k, n2, ny,
               couette: ti.template(), slope: ti.template()):
-    """Jacobian rows, EPS and the diagonal of one column."""
+    """Set the Jacobian rows, EPS and the diagonal of one column."""
     inv, CT_l, frame = 1 / G[l, DX], G[l, CT], G[l, FRAME]
     left, right, w = face_of(T, ALONG, k - 1), face_of(T, ALONG, k), couette_weights(i)
     q, c = stencil(S, k, slope, QP, frame), stencil(S, k, couette, RHO, frame)
@@ -225,6 +234,7 @@ def node_rows(T: ti.template(), S: ti.template(), J: ti.template(), G: ti.templa
 
 @ti.kernel
 def contact_right(S: ti.template(), J: ti.template(), G: Table, right: LinearFlat, alone: ti.template()):
+    """Set the right-hand side of touching nodes: the change of film that takes the gap to its floor."""
     nx, ny, off = cells(G, 0)
     for k in range(off, off + (ny // W + 1) * (nx + 1)):
         J[TRIAL, k], J[FILM, k] = L(J, 0.0), ti.cast(S[H, k] - G[0, FLOOR], J.dtype)
@@ -235,7 +245,7 @@ def contact_right(S: ti.template(), J: ti.template(), G: Table, right: LinearFla
 
 @ti.kernel
 def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, shared: ti.i32, rows: Rows, alone: ti.template()):
-    """All levels from the finest at once: the coinciding nodes are the same."""
+    """Copy the fields `rows` to all coarser levels from the coinciding nodes of the finest level, all levels in parallel."""
     for n in range((levels - 1) * shared * (int(G[0, NX]) // 2 + 1)):
         size = shared * (int(G[0, NX]) // 2 + 1)
         l, q = 1 + n // size, n % size
@@ -246,6 +256,7 @@ def inject(S: ti.template(), J: ti.template(), G: Table, levels: ti.i32, shared:
 
 @ti.func
 def inject_column(S: ti.template(), J: ti.template(), G: ti.template(), l, t, i, c, my, rows: ti.template()):
+    """Copy the fields `rows` of column i of block t of level l (column c of the table); ghosts stay dry."""
     nx, ny, off = cells(G, 0)
     for n in range(rows.shape[0]):
         S[rows[n], c] = from_finest(S, rows[n], off, nx + 1, ny // W, l, t, i)
@@ -259,7 +270,7 @@ def inject_column(S: ti.template(), J: ti.template(), G: ti.template(), l, t, i,
 
 @ti.func
 def from_finest(S: ti.template(), row, off, n2, last, l, t, i):
-    """Lanes of block t in column i of level l: rows of the finest level, 2^l apart; ghosts as the last block has them."""
+    """Lanes of block t in column i of level l: rows of the finest level, 2^l apart; ghosts from the last block."""
     out = V(0.0)
     for u in ti.static(range(W)):
         if l == 1:
@@ -271,6 +282,7 @@ def from_finest(S: ti.template(), row, off, n2, last, l, t, i):
 
 @ti.kernel
 def replace_rows(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, touching: ti.i32, alone: ti.template()):
+    """Replace the Jacobian rows of touching (if any) and dry nodes."""
     for q in range(blocks.shape[0] * (int(G[0, NX]) + 1)):
         b, i = q // (int(G[0, NX]) + 1), q % (int(G[0, NX]) + 1)
         nx, _, off = cells(G, blocks[b, 0])
@@ -284,7 +296,10 @@ def replace_rows(S: ti.template(), J: ti.template(), G: Table, blocks: Blocks, t
 @ti.kernel
 def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: LinearFlat, mass_row: LinearFlat,
                 touching: Table, alone: ti.template()):
-    """touching[0, 0]: 1 where there is a touching node."""
+    """Choose touching and dry nodes; set row scales, right-hand side and weights of the outflow.
+
+    touching[0, 0]: 1 if a node touches, else 0.
+    """
     for _ in range(1):
         touching[0, 0] = 0.0
     nx, ny, off = cells(G, 0)
@@ -303,6 +318,7 @@ def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: Li
 
 @ti.kernel
 def follow(S: ti.template(), O: ti.template(), G: Table, numbers: Flat, states: Table, ways: Table, alone: ti.template()):
+    """Set QOLD, the part of the storage term by earlier states along the paths of the oil."""
     nx, ny, off = cells(G, 0)
     for q in range((ny // W + 1) * (nx + 1)):
         frame, i = read(Frame, numbers), q % (nx + 1)
@@ -317,6 +333,7 @@ def follow(S: ti.template(), O: ti.template(), G: Table, numbers: Flat, states: 
 
 @ti.kernel
 def keep(S: ti.template(), O: ti.template(), G: Table, row: Flat, alone: ti.template()):
+    """Keep rho H of the newest state in row[0] of the history O."""
     nx, ny, off = cells(G, 0)
     for q in range((ny // W + 1) * (nx + 1)):
         O[int(row[0]), q] = repeated(S[RHO, off + q] * S[H, off + q], q // (nx + 1), ny)
@@ -331,6 +348,7 @@ def lane_block(G: ti.template(), q):
 
 @ti.kernel
 def tractions(S: ti.template(), G: Table, rheology: ti.template(), conditions: Flat, out: Stack):
+    """Compute the tractions on both bodies into `out`."""
     nx, ny, off = cells(G, 0)
     for q in range((ny // W + 1) * (nx + 1)):
         at = lane_block(G, q)

@@ -1,4 +1,4 @@
-"""Newton's vectors on the card: what comes back in a step are sums and the largest change."""
+"""Newton's method with its vectors on the card: only sums and the largest change are copied back in a step."""
 
 import numpy as np
 
@@ -11,12 +11,12 @@ from tehl_taichi.pressure.linear.cells.cell_gmres import CellGmres
 from tehl_taichi.pressure.linear.cells.sums import CHUNKS, GROUPS, add_up
 from tehl_taichi.pressure.newton import ROW_CAP, PressureSolver
 
-SUMS = 6  # those of `balances`, then the square of the right-hand side and its net outflow
+SUMS = 6  # number of sums: those of `balances`, then the square of the right-hand side and its net outflow
 
 
 @ti.kernel
 def sums(S: ti.template(), G: Table, middle: ti.i32, parts: Table, groups: Table, totals: Table) -> ti.types.vector(4, ti.f64):
-    """PHI2, LOAD, OUTFLOW, COUETTE as :func:`tehl_taichi.pressure.balances.sums` has them."""
+    """Sums PHI2, LOAD, OUTFLOW, COUETTE, as of :func:`tehl_taichi.pressure.balances.sums`."""
     for c in range(CHUNKS):
         nx, ny, off = cells(G, 0)
         phi2, load, mass, couette = V(0.0), V(0.0), V(0.0), V(0.0)
@@ -45,7 +45,7 @@ def sums(S: ti.template(), G: Table, middle: ti.i32, parts: Table, groups: Table
 @ti.kernel
 def defects(columns: ti.i32, b: LinearFlat, mass_row: LinearFlat, parts: Table, groups: Table, totals: Table
             ) -> ti.types.vector(2, ti.f64):
-    """Square of the right-hand side, and its net outflow."""
+    """(sum of squares of the right-hand side, its net outflow)."""
     for c in range(CHUNKS):
         square, outflow = ti.cast(0.0, ti.f64), ti.cast(0.0, ti.f64)
         for n in range((columns + CHUNKS - 1) // CHUNKS):
@@ -61,13 +61,14 @@ def defects(columns: ti.i32, b: LinearFlat, mass_row: LinearFlat, parts: Table, 
 
 @ti.kernel
 def scale(values: LinearFlat, factor: ti.f64):
+    """Multiply `values` by `factor`."""
     for n in range(values.shape[0]):
         values[n] = values[n] * factor
 
 
 @ti.kernel
 def largest(S: ti.template(), G: Table, step: LinearFlat, out: Table) -> ti.f64:
-    """Largest size of a step where the pressure is unknown."""
+    """Largest size of a step at the nodes with unknown pressure."""
     for _ in range(1):
         out[0, 0] = 0.0
     nx, ny, off = cells(G, 0)
@@ -78,8 +79,10 @@ def largest(S: ti.template(), G: Table, step: LinearFlat, out: Table) -> ti.f64:
 
 
 class CellNewton(PressureSolver):
-    """The :class:`tehl_taichi.pressure.newton.PressureSolver` of jobs that are cells. A step is its largest size and the change
-    of H0."""
+    """The :class:`tehl_taichi.pressure.newton.PressureSolver` for graphics cards.
+
+    Its steps stay on the card; `_step` returns (largest change of P, change of H0).
+    """
 
     def __init__(self, levels, film, most_rises=np.inf, carries_load=True):
         super().__init__(levels, film, most_rises, CellGmres, carries_load)

@@ -1,4 +1,4 @@
-"""The kernels of cells that stand for kernels of rows, and the arguments that they fill."""
+"""Kernels for graphics cards (one column per job) that replace kernels for processors, and the arguments that they write."""
 
 from tehl_taichi.engine import field_pool
 from tehl_taichi.engine.simd import W, get, put
@@ -7,7 +7,7 @@ from tehl_taichi.pressure import active_sets, balances, isothermal_laws, reynold
 from tehl_taichi.pressure.cells import kernels
 from tehl_taichi.pressure.linear import transfer
 
-KNOWN = {  # kernel: (its twin, numbers of the arguments that it fills); other packages add theirs
+KNOWN = {  # kernel: (its twin, numbers of the arguments that the twin writes); other rooms may add theirs
     put: (kernels.put, ()),
     get: (kernels.get, (4,)),
     balances.save: (kernels.save, (3,)),
@@ -26,14 +26,14 @@ KNOWN = {  # kernel: (its twin, numbers of the arguments that it fills); other p
 
 
 def launch(levels, kernel, *args):
-    """A launch of what stands for `kernel`, on the tables of `levels`."""
+    """Bound launch of the twin of `kernel` (or of `kernel` itself without a twin), on the tables of `levels`."""
     twin, writes = KNOWN.get(kernel, (kernel, None))
     faces = (faces_of(levels),) if twin in (kernels.residual, kernels.linearise) else ()
     return bind(twin, *faces, *args, writes=writes)
 
 
 def faces_of(levels):
-    """The table of faces of `levels`."""
+    """Table of faces of `levels`, made at the first call."""
     if not hasattr(levels, "faces"):
         columns = levels.S.shape[1]
         levels.faces = field_pool.lease(levels, kernels.FACES, W, columns - field_pool.SKEW, clean=False)
