@@ -50,8 +50,8 @@ class SearchResult:
     summary : dict
         Numbers in SI units, at the surface, and below it in its "below"; "surface": the searched body, "a" or "b".
     feature_frame_x, feature_frame_y : numpy.ndarray
-        Points of the surface, m: from the centre of its feature, or from the place that the other body's feature meets at X =
-        0.
+        Points of the surface, m: from the centre of its feature, or from the place that a feature of the other body meets at
+        X = 0.
     findley_stress, Fi, sigma1_max, plane_theta, plane_phi : numpy.ndarray
         At the surface, (x, y).
     passed : numpy.ndarray
