@@ -72,15 +72,20 @@ def cam(
 
 
 def print_cam(found):
-    """Print the tables of a cam, the reasons of angles without a result, and its path."""
-    from tehl_cli.tables import list_table
+    """Print the tables of a cam, its answer, the reasons of angles without a result, its warnings, and its path."""
+    from tehl_cli.tables import list_table, warning_lines
 
+    from tehl_taichi.report import cam_page
     from tehl_taichi.runs.cam.cam_columns import tables
 
     put(found.title)
     for title, (heads, lines) in tables(found.rows).items():
         list_table(title, heads, lines, whole=True)
+    answer = cam_page.answer(found)
+    for sentence in (f"{answer.question} {answer.headline}", *filter(None, answer.sentences), *cam_page.limits(found)):
+        put(sentence)
     put(f"assumed: {found.record['assumption']}")
     for at, reason in found.failed:
         put(f"no result: {at.words}: {reason}")
+    warning_lines(cam_page.warnings(found, str))
     put(f"stores, cam.csv, cam.json: {found.folder}")

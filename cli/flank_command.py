@@ -109,12 +109,9 @@ def print_flank(found):
     put(found.title)
     for title, (heads, lines) in tables(found.rows).items():
         list_table(title, heads, lines, whole=True)
-    if answer := flank_page.verdict(found):
-        question, headline, _, sentences = answer
-        put(f"{question} {headline}")
-        for sentence in sentences:
-            put(sentence)
-    for sentence in (*flank_page.film_words(found), *flank_page.no_film_words(found)):
+    answer = flank_page.answer(found)
+    put(f"{answer.question} {answer.headline}")
+    for sentence in (*answer.sentences, *flank_page.limits(found), *flank_page.no_film_words(found)):
         put(sentence)
     put(f"assumed: {found.record['assumption']}")
     put(f"load: {found.record['load_sharing']}")

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.march.step_output import Scalar, always, entries, thermal
+from tehl_taichi.values.summary_units import unit_of
 
 OVER = {"start": "", "maximum": ", largest", "minimum": ", smallest", "mean": ", mean"}
 SPOKEN = {"steady": "steady", "transient": "passage"}  # parts whose numbers have equal names
@@ -125,3 +126,11 @@ def of_part(part, scene=None):
 def of_key(key):
     """The first entry with that key, or None."""
     return next((entry for entry in ENTRIES if entry.key == key), None)
+
+
+def short_name(key):
+    """Name of a number without its unit and its part: h_c for h_c_m, "largest film temperature" for film_max_C."""
+    entry = of_key(key)
+    if entry and entry.series:
+        return (entry.label.removeprefix(SPOKEN[entry.part]).strip() or entry.name).replace(",", "")
+    return key.removesuffix(f"_{key.rpartition('_')[2]}") if unit_of(key) else key

@@ -4,11 +4,10 @@ import numpy as np
 
 from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
-from tehl_taichi.report.number_text import FEW, sentence_case, unit_spelled, value_text
+from tehl_taichi.report.number_text import sentence_case, unit_spelled
 from tehl_taichi.report.plots import colour, line, rings, stack
 from tehl_taichi.runs.cam import cam_columns, cam_figure
 from tehl_taichi.runs.cam.stored_cam import Cam
-from tehl_taichi.runs.flank.flank_columns import error_of, value_at
 from tehl_taichi.runs.flank.flank_figure import JUDGED
 from tehl_taichi.values.coded_text import without_options
 
@@ -17,9 +16,8 @@ def of(folder, out=None):
     """The :class:`tehl_taichi.report.document.Page` of the cam in `folder`; out: its file, for
     links. Raises StoreError."""
     cam = Cam.open(folder)
-    number = place_sections.critical_number(cam.rows, _places(cam))
-    store, words = (None, "") if number is None else (cam.store_of(number), _words(cam.rows[number][0]))
-    return Page(f"{cam.name}: report", cam.title, _answer(cam, store), (
+    store, words = _critical(cam)
+    return Page(f"{cam.name}: report", cam.title, answer(cam), (
         Section("Over the cycle", (figure_block(*figures(cam)),)),
         Section("Angles", (*(table([unit_spelled(head) for head in heads], lines, title)
                              for title, (heads, lines) in cam_columns.tables(cam.rows).items()),
@@ -38,10 +36,21 @@ def _places(cam):
     return place_verdict.judged_places(cam.rows, _words, _words)
 
 
-def _answer(cam, store):
-    """Answer: the thinnest film, or the largest index if features pass."""
+def _critical(cam):
+    """(store of the critical angle or None, text of the angle)."""
+    number = place_sections.critical_number(cam.rows, _places(cam))
+    return (None, "") if number is None else (cam.store_of(number), _words(cam.rows[number][0]))
+
+
+def limits(cam):
+    """Sentences about the meaning of Fi = 1; () without an index."""
+    return place_sections.limit(_critical(cam)[0])
+
+
+def answer(cam):
+    """The :class:`tehl_taichi.report.document.Answer` of a cam: the thinnest film, or the largest index if features pass."""
     left = f"{len(cam.failed)} of {len(cam.rows)} angles have no result and are not part of this answer."
-    doubts = (*place_sections.limit(store), f"Assumed: {cam.record['assumption']}.", *[left] * bool(cam.failed))
+    doubts = (*limits(cam), f"Assumed: {cam.record['assumption']}.", *[left] * bool(cam.failed))
     thin = _thinnest(cam)
     if places := _places(cam):
         headline, tone, sentences = place_verdict.answer(places, len(cam.rows))
@@ -52,12 +61,8 @@ def _answer(cam, store):
 
 def _thinnest(cam):
     """Sentence about the smallest steady film; "" without results."""
-    films = [(value_at(summary, "steady", "h_min_m"), error_of(summary, "steady", "h_min_m"), at) for at, _, summary in cam.rows
-             if summary]
-    if not films:
-        return ""
-    film, error, at = min(films, key=lambda entry: entry[0])
-    return f"The smallest film is {value_text(film, error, 'm', FEW)}, at {at.words}."
+    found = place_verdict.thinnest(cam.rows)
+    return f"The smallest film is {found[0]}, at {found[1].words}." if found else ""
 
 
 def figures(cam):
@@ -72,9 +77,9 @@ def _line(name, x, y, factor, shade):
     return rings(x, y, name, shade) if name == JUDGED else line(x, y, name, shade, mode="lines+markers")
 
 
-def warnings(cam):
-    """Warnings of all angles, each once with its angles."""
-    return place_warnings.of(cam.rows, _words, without_options)
+def warnings(cam, spelled=without_options):
+    """Warnings of all angles, each kind once with its angles; spelled: function for their texts (default: for a page)."""
+    return place_warnings.of(cam.rows, _words, spelled)
 
 
 def _provenance(cam):

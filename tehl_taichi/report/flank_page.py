@@ -3,7 +3,7 @@
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
-from tehl_taichi.report.number_text import FEW, sentence_case, unit_spelled, value_text
+from tehl_taichi.report.number_text import sentence_case, unit_spelled
 from tehl_taichi.report.plots import colour, line, rings, stack
 from tehl_taichi.runs.flank import specific_film
 from tehl_taichi.runs.flank.flank_columns import plotted_value, tables, value_at
@@ -29,9 +29,8 @@ def of(folder, out=None):
     """The :class:`tehl_taichi.report.document.Page` of the flank in `folder`; out: its file, for
     links. Raises StoreError."""
     flank = Flank.open(folder)
-    number = place_sections.critical_number(flank.rows, judged_places(flank))
-    store, words = (None, "") if number is None else (flank.store_of(number), _where(flank.rows[number][0]))
-    return Page(f"{flank.name}: report", f"{flank.title}, {len(flank.rows)} positions", _answer(flank, store), (
+    store, words = _critical(flank)
+    return Page(f"{flank.name}: report", f"{flank.title}, {len(flank.rows)} positions", answer(flank), (
         Section("Along the flank", (figure_block(*figures(flank)),)),
         Section("Positions", (*(table([unit_spelled(head) for head in heads], lines, title)
                                 for title, (heads, lines) in tables(flank.rows).items()),
@@ -42,6 +41,12 @@ def of(folder, out=None):
                                    sentences([f"Load: {flank.record['load_sharing']}.", *no_film_words(flank)]))),
         Section("Warnings", (sentences(warnings(flank)),)),
         Section("Provenance", (facts(_provenance(flank)),))))
+
+
+def _critical(flank):
+    """(store of the critical position or None, text of the position)."""
+    number = place_sections.critical_number(flank.rows, judged_places(flank))
+    return (None, "") if number is None else (flank.store_of(number), _where(flank.rows[number][0]))
 
 
 QUESTION = "Where along the flank does a fatigue crack start?"
@@ -62,35 +67,34 @@ def judged_places(flank):
     return place_verdict.judged_places(flank.rows, short_name, _where)
 
 
-def verdict(flank):
-    """(question, headline, tone, sentences) of a flank with an index, None without one."""
-    places = judged_places(flank)
-    return (QUESTION, *place_verdict.answer(places, len(flank.rows))) if places else None
+def limits(flank):
+    """Sentences about the meaning of Fi = 1; () without an index."""
+    return place_sections.limit(_critical(flank)[0])
 
 
-def _answer(flank, store):
-    """Answer of a flank; store: of the critical position, or None."""
+def answer(flank):
+    """The :class:`tehl_taichi.report.document.Answer` of a flank."""
     left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not part of this answer."
     count = f"Number of warnings, listed below: {len(warnings(flank))}."
     none = [f"No verdict at {_where(at)}: {why_none(part)}." for at, _, summary in flank.rows
             if (part := value_at(summary, "fatigue")) and why_none(part)]
-    doubts = (*place_sections.limit(store), *none, *[left] * bool(flank.failed), f"Assumed: {flank.record['assumption']}.",
+    doubts = (*limits(flank), *none, *[left] * bool(flank.failed), f"Assumed: {flank.record['assumption']}.",
               *[count] * bool(warnings(flank)))
-    if found := verdict(flank):
-        question, headline, tone, sentences = found
-        return Answer(question, headline, tone, (*sentences, *film_words(flank)), doubts)
+    if places := judged_places(flank):
+        headline, tone, sentences = place_verdict.answer(places, len(flank.rows))
+        return Answer(QUESTION, headline, tone, (*sentences, *film_words(flank)), doubts)
     if none:
         return Answer(QUESTION, "No verdict: at all positions the film has more friction than any oil.", "open", (), doubts)
     return _of_films(flank, doubts)
 
 
 def _of_films(flank, doubts):
-    films = [(summary["steady"]["h_min_m"], at) for at, _, summary in flank.rows if summary]
+    thinnest = place_verdict.thinnest(flank.rows)
     question = "How thick is the film along the flank?"
-    if not films:
+    if not thinnest:
         return Answer(question, "No answer: no position converged.", "none", (), doubts)
-    h, at = min(films, key=lambda entry: entry[0])
-    return Answer(question, f"The smallest film is {value_text(h, unit='m', digits=FEW)}, at {_where(at)}.", "none",
+    text, at = thinnest
+    return Answer(question, f"The smallest film is {text}, at {_where(at)}.", "none",
                   ("No feature passes, so the fatigue index is not computed.", *film_words(flank)), doubts)
 
 

@@ -6,8 +6,9 @@ from functools import cached_property
 from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, error_of, judged, worst_layer
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
-from tehl_taichi.report.number_text import index
+from tehl_taichi.report.number_text import FEW, index, value_text
 from tehl_taichi.report.verdict import headline
+from tehl_taichi.runs.flank.flank_columns import error_of as error_in
 from tehl_taichi.values.digits import micrometres
 
 LATER = "Not decided: the index stays below 1 while the grid resolves the pressure, and exceeds 1 later {}."
@@ -159,3 +160,14 @@ def _load_too(verdict, places):
     if tone != "yes" or not found or judged(found[1]["Fi_max"], error_of(found[1], "Fi_max")) != ABOVE:
         return text, tone
     return f"{text.removesuffix('.')}. The load alone exceeds it, without any feature.", tone
+
+
+def thinnest(rows):
+    """(text of the smallest steady film with its error, its place); None without results. rows: (place, Hertz pressure, summary
+    or None).
+    """
+    found = [(summary["steady"]["h_min_m"], error_in(summary, "steady", "h_min_m"), at) for at, _, summary in rows if summary]
+    if not found:
+        return None
+    film, error, at = min(found, key=lambda entry: entry[0])
+    return value_text(film, error, "m", FEW) + " (error unknown)" * (error is None), at

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tehl_taichi.errors import StoreError
-from tehl_taichi.runs import single_run
+from tehl_taichi.runs import passages_left, single_run
 from tehl_taichi.runs.progress import Progress
 from tehl_taichi.runs.single_run import check_version
 from tehl_taichi.runs.sweep import case, pool
@@ -55,10 +55,13 @@ def _run(places, todo, workers, threads, progress):
     """Generator of the results of :func:`summaries` for the scenes that have to run."""
     alone, count = workers == 1, len(places)
     jobs = (case.CaseJob(places[n][0], str(places[n][1].absolute()), threads, shared=not alone) for n in todo)
-    work = _LocalWork(progress, len(todo)) if alone else case.run_case
+    clock = passages_left.PassagesLeft([places[n] for n in todo], progress.say)
+    work = _LocalWork(progress, len(todo), clock) if alone else case.run_case
     if not alone:
         progress.say(f"{len(todo)} positions on {workers} workers")
-    for ended, (place, answer) in enumerate(pool.results(work, jobs, workers=workers), count - len(todo)):
+    for sentence in passages_left.announced([places[n][0] for n in todo]):
+        progress.say(sentence)
+    for ended, (place, answer) in enumerate(pool.results(work, jobs, workers=workers, tick=clock.tick), count - len(todo)):
         n = todo[place]
         scene, path = places[n]
         outcome = _outcome(path, answer)
@@ -84,12 +87,13 @@ def _report(progress, scene, outcome, which):
 class _LocalWork:
     """Job function for this process; it passes the progress of each run to the listener."""
 
-    def __init__(self, progress, count):
-        self.progress, self.count, self.n = progress, count, 0
+    def __init__(self, progress, count, clock):
+        self.progress, self.count, self.clock, self.n = progress, count, clock, 0
 
     def __call__(self, job):
         self.n += 1
-        self.progress.say(f"{self.n} of {self.count}: {job.scene.name}")
+        left = self.clock.left()
+        self.progress.say(f"{self.n} of {self.count}: {job.scene.name}{f'; {left}' if left else ''}")
         return case.run_case(job, _NamedProgress(self.progress, job.scene.name))
 
 

@@ -1,6 +1,7 @@
 """Warnings about the results of a run, one sentence each: warnings of the scene, and those from its store."""
 
 import functools
+import re
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.laws import conduction
 from tehl_taichi.laws.law import beyond
 from tehl_taichi.march.accuracy.coarse_runs import near_the_surface
+from tehl_taichi.march.quantities import short_name
 from tehl_taichi.runs.summary import domain_warnings, film_warnings, rim_warnings
 from tehl_taichi.scene import yield_stress
 from tehl_taichi.scene.refinement import finer_grid_option, zoom_option
@@ -68,7 +70,7 @@ def of_single_peaks(store, summary):
     grid = finer_grid_option(store.scene)
     if names:
         text = (f"the largest and smallest values of rough surfaces belong to single peaks, and may not settle on any grid (no "
-                f"error bar: {', '.join(names)}); judge by percentiles and shares, or try {grid}")
+                f"error bar: {', '.join(map(_spoken, names))}); judge by percentiles and shares, or try {grid}")
         yield with_data(text, grid, numbers=names)
 
 
@@ -90,7 +92,13 @@ def _zoomed_work(store, factor):
 
 def few_names(names):
     """Text of names, abbreviated if there are many; the warning's data and the error table have all of them."""
-    return ", ".join(names) if len(names) <= MANY else f"{', '.join(names[:FIRST])} and {len(names) - FIRST} more numbers"
+    spoken = [_spoken(name) for name in names]
+    return ", ".join(spoken) if len(names) <= MANY else f"{', '.join(spoken[:FIRST])} and {len(names) - FIRST} more numbers"
+
+
+def _spoken(name):
+    """Text of a name such as "steady h_c_m": "steady h_c"."""
+    return re.sub(r"\w+_\w+", lambda key: short_name(key[0]), name)
 
 
 def _unknown(summary):

@@ -22,9 +22,9 @@ TRIES = 2
 DIED = "its worker died, also at the second attempt (killed, or out of memory)"
 
 
-def results(work, jobs, workers):
+def results(work, jobs, workers, tick=None):
     """Run jobs: see :func:`tehl_taichi.runs.sweep.pool.results`."""
-    crew = LocalWorkers(workers)
+    crew = LocalWorkers(workers, tick or (lambda: None))
     try:
         yield from crew.results(work, iter(enumerate(jobs)))
         crew.leave()
@@ -33,10 +33,10 @@ def results(work, jobs, workers):
 
 
 class LocalWorkers:
-    """A number of workers, started when jobs are waiting."""
+    """A number of workers, started when jobs are waiting; tick: called between two looks at them."""
 
-    def __init__(self, count):
-        self.count, self.room, self.busy, self.idle = count, SHARE * memory_limit.available() / count, {}, []
+    def __init__(self, count, tick=lambda: None):
+        self.tick, self.count, self.room, self.busy, self.idle = tick, count, SHARE * memory_limit.available() / count, {}, []
 
     def results(self, work, waiting):
         """Generator of (number of the job, its answer) in order of completion."""
@@ -55,6 +55,7 @@ class LocalWorkers:
                 self._hand_out(work, waiting)
                 yield number, answer
             self._end_the_greedy()
+            self.tick()
 
     def _hand_out(self, work, waiting):
         while len(self.busy) < self.count and (job := next(waiting, None)):

@@ -13,13 +13,13 @@ __all__ = ["LostJob", "check", "results", "sizes"]
 MOST = 1024  # processes, and threads of one
 
 
-def results(work, jobs, *, workers=1, scheduler=None, say_line=None):
+def results(work, jobs, *, workers=1, scheduler=None, say_line=None, tick=None):
     """Generator of (number of the job, work(job) or LostJob), in order of completion.
 
     work: a function that other processes can import; it starts the engine itself. jobs: an iterable, read as workers become
     free. workers: number of processes; 1 is this process, None uses `scheduler` (its address, or a distributed.Client).
-    say_line: called with sentences. Raises RuntimeUnavailable if a scheduler is named and Dask is not installed, StoreError if
-    no scheduler answers.
+    say_line: called with sentences; tick: called every second while local processes work. Raises RuntimeUnavailable if a
+    scheduler is named and Dask is not installed, StoreError if no scheduler answers.
     """
     if workers == 1:
         yield from ((number, work(job)) for number, job in enumerate(jobs))
@@ -27,7 +27,7 @@ def results(work, jobs, *, workers=1, scheduler=None, say_line=None):
     if workers:
         from tehl_taichi.runs.sweep import local_workers
 
-        yield from local_workers.results(work, jobs, workers)
+        yield from local_workers.results(work, jobs, workers, tick)
         return
     from tehl_taichi.runs.sweep import dask_cluster
 

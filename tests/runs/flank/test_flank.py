@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import interrupt
+from tehl_taichi.runs import passages_left
 from tehl_taichi.runs.flank import flank_columns, flank_figure
 from tehl_taichi.runs.flank.flank_source import flank_source
 from tehl_taichi.runs.flank.line_contacts import scene_at
@@ -121,6 +122,16 @@ def test_positions_run_side_by_side_and_those_without_a_result_are_listed(tmp_pa
     assert heard.lines[0] == "7 positions on 2 workers" and heard.lines[7].startswith("7 of 7: fzg-c-")
     assert any(line.endswith("of 7: fzg-c-01-A: made up") for line in heard.lines)
     assert tehl.open(found.folder).record == found.record
+
+
+def test_passages_side_by_side_are_announced_and_show_their_steps(tmp_path, monkeypatch):
+    heard = Heard()
+    monkeypatch.setattr(case, "run_case", position)
+    monkeypatch.setattr(passages_left, "EVERY", 0.0)
+    monkeypatch.setattr(passages_left, "_last_step", lambda path: 5 if "-02-" in path.name else 0)
+    tehl.flank("fzg-c", positions=7, changes=SMALL, folder=tmp_path / "f", workers=2, progress=heard)
+    assert heard.lines[0] == "7 positions on 2 workers" and heard.lines[1].startswith("7 passages of ")
+    assert any(line.startswith("fzg-c-02-B- step 5 of ") for line in heard.lines)
 
 
 @pytest.mark.parametrize("name, by", [("", "interrupted"), ("SIGTERM", "stopped by SIGTERM")])
