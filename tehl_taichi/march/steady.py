@@ -66,14 +66,13 @@ def solve_steady(scene, scales, nx, ny, look=None, full=False):
         report = from_nothing(solver) if P is None else _from_coarser(solver, P, H0)
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
         P, H0 = (levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)
+        before, T = T, None  # temperatures are a start for the next grid only
         if report.converged and not scene.isothermal and (finest or nx // size[0] <= FINEST_THERMAL and not _touches(solver)):
             heat = FilmHeat(levels, time_step(scene, scales, levels.dx))
             solver.take(heat)  # density and viscosity follow the temperatures from here on
-            report, moving = _with_temperatures(solver, heat, T, finest)
+            report, moving = _with_temperatures(solver, heat, before, finest)
             if finest or report.converged and not _touches(solver):
                 P, H0, T = levels.get(fields.P), solver.H0, np.stack([refine(layer) for layer in heat.T])
-            else:
-                T = None
         if not report.converged:
             values = []
         if finest or report.converged and (scene.isothermal or heat):

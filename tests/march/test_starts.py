@@ -270,6 +270,26 @@ def test_a_grid_on_which_the_surfaces_touch_is_no_start_for_temperatures(monkeyp
     assert not shot.fields["contact"].any() and not shot.unsettled
 
 
+def test_temperatures_of_a_grid_are_no_start_for_the_grid_after_next(monkeypatch):
+    """Where a grid between them finds no film of cold oil (mtm at 40 deg C and SRR 0.45, 96x24 of 192x48 cells)."""
+    from tehl_taichi.march import steady
+
+    usual, solve, failed = first(**{"grid.nx": 128}), steady._from_coarser, []
+
+    def failing(solver, *state):
+        report = solve(solver, *state)
+        if solver.levels.nx == 64:
+            failed.append(True)
+            report.converged = False
+        return report
+
+    monkeypatch.setattr(steady, "_from_coarser", failing)
+    shot = first(**{"grid.nx": 128})
+    assert failed and not shot.unsettled
+    assert shot.scalars["h_c_m"] == pytest.approx(usual.scalars["h_c_m"], rel=1e-4)
+    assert shot.scalars["film_max_C"] == pytest.approx(usual.scalars["film_max_C"], abs=0.3)
+
+
 def test_a_march_that_flutters_about_one_state_is_at_rest():
     """As by turns: runs of blocks are compared, not only two blocks that differ by 0.3 K for ever."""
     from types import SimpleNamespace
