@@ -158,7 +158,7 @@ def _assign(data, dotted, value):
     *path, last = dotted.split(".")
     known = (*TOP, *aliases.SHORT)
     if not path and last not in known:
-        raise _unknown(dotted, last, known)
+        raise _unknown(dotted, last, known, f"{ALL_KEYS}, and `tehl run --help` for short ones")
     target = _place(data, path, dotted) if path else data
     if last == "file":
         target["sha256"] = ""  # another file, other heights
@@ -192,9 +192,10 @@ def _feature(data, number, dotted):
     return features[int(number)] if isinstance(features[int(number)], dict) else {}
 
 
-def _unknown(dotted, key, known):
+def _unknown(dotted, key, known, place=ALL_KEYS):
+    """SceneError about a key that is none of the `known` names; place: text that says where all of them are."""
     meant = _with_section(dotted) or nearest(key, known)
-    return SceneError(f"unknown key {key_shown(dotted)}{meant}; {known_names(known, ALL_KEYS)}")
+    return SceneError(f"unknown key {key_shown(dotted)}{meant}; {known_names(known, place)}")
 
 
 def _with_section(key):
