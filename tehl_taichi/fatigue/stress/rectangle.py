@@ -82,7 +82,7 @@ def strip_coefficient(x, a):
 
 
 def strip(x, z, a):
-    """Stresses as of :func:`strip_at_depth`, also at the surface (z = 0)."""
+    """Stresses of :func:`strip_at_depth`, also at the surface (z = 0)."""
     if z:
         return strip_at_depth(x, z, a)
     here, none = 1.0 * (np.abs(x) < a), np.zeros(x.shape)

@@ -7,13 +7,14 @@ import numpy as np
 from tehl_taichi.fatigue.stress.averaging import averaged
 from tehl_taichi.fatigue.stress.unit_loads import ACROSS
 
-FREE = [2, 4, 5]  # zz, xz, yz: zero at the surface
-ENDS = 1.5        # of the deepest depth: there it has gone
+FREE = [2, 4, 5]  # zz, xz, yz: components that are zero at the surface
+ENDS = 1.5        # the stress falls to zero at this multiple of the deepest depth
 
 
 @dataclass(frozen=True)
 class ResidualField:
-    """x (nx,), y (rows,), depths (layers,) m, in the frame of the surface; stress (layers, 6, nx, rows) Pa; zero beyond."""
+    """Residual stress (layers, 6, nx, rows) Pa at x (nx,), y (rows,), depths (layers,) m in the frame of the surface; zero
+    beyond these points."""
 
     x: np.ndarray
     y: np.ndarray
@@ -21,7 +22,7 @@ class ResidualField:
     stress: np.ndarray
 
     def at(self, x, y, depths):
-        """Stresses (x, y, depths, 6), Pa, at these positions."""
+        """Stresses (x, y, depths, 6) Pa at these positions (m)."""
         found = np.tensordot(_weights(self.x, x), self.stress, (1, 2))  # x, layers, 6, y
         found = np.tensordot(found, _weights(self.y, y), (3, 1))  # x, layers, 6, y
         found = np.moveaxis(np.tensordot(found, self._in_depth(depths), (1, 1)), 1, -1)  # x, y, depths, 6

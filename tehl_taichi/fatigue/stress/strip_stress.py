@@ -32,6 +32,7 @@ class StripStress:
         return out
 
     def _put(self, out, loads):
+        """Write the stresses (nx+1, depths, 6) Pa of the loads p, q_x (2, nx+1) Pa of one entry to `out`."""
         pressed, sheared = half(loads, self.size, -1, DOUBLE)
         spectra = self.answers[0] * pressed + self.answers[1] * sheared
         found = half_back(spectra, self.size, -1, DOUBLE)[..., : self.n]

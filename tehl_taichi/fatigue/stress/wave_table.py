@@ -1,19 +1,20 @@
-"""Responses of waves that depend only on the wave number: computed for a few and interpolated between.
+"""Table of responses that depend only on the wave number: computed for a few wave numbers, interpolated for the others.
 
-A plane of 256 x 128 points has 28 000 waves that reach below the surface, all of different lengths; each response is a series
-in time of error functions. They are smooth in the logarithm of the wave number: s per depth and row of such a plane, each wave
-by itself / from the table 5.2 / 2.8, 4.3 / 2.5 (half of the rest is the motion of the wave over the body).
+A plane of 256 x 128 points has 28 000 waves that reach below the surface, all of different lengths. Each response is a series
+in time of error functions, smooth in the logarithm of the wave number. Time per depth / per row of such a plane: 5.2 / 4.3 s if
+each wave is computed, 2.8 / 2.5 s with the table (half of the rest is the motion of the waves over the body).
 """
 
 import numpy as np
 
-DENSE = 20  # wave numbers a factor e: cubic between them to 3e-7 of the largest stress, what single precision leaves
-WORTH = 2  # times as many waves as in the table: fewer are found each by itself
+DENSE = 20  # wave numbers per factor e: the cubic between them errs by 3e-7 of the largest stress, as single precision does
+WORTH = 2  # least number of waves per wave number of the table; fewer waves are computed directly
 
 
 class WaveTable:
-    """Table over wave numbers k (n,) 1/m of the arrays (4, n, ...) of find(k), in single precision; :meth:`of` chooses between
-    both.
+    """Table of find(k), arrays (4, n, ...) in single precision, over wave numbers k (n,) 1/m from low to high, and k = 0.
+
+    :meth:`of` chooses between a table and find.
     """
 
     def __init__(self, low, high, find):
@@ -31,6 +32,7 @@ class WaveTable:
         return cls(low, high, find)
 
     def __call__(self, k):
+        """Interpolated arrays (4, n, ...) at wave numbers k (n,) 1/m."""
         weights, rows = self._weights(k)
         return [self._product(weights, part[:, rows]) for part in self.table]
 
