@@ -22,7 +22,7 @@ CLOSE = 0.9      # points above this share of the worst of a rung are searched b
 
 
 @dataclass(frozen=True)
-class Profile:
+class DepthProfile:
     """Results under one row: value f (depths, x') Pa of the criterion at `depths` (n,) m, the worst point of all depths, the
     largest von Mises stress (None if the passage does not search it)."""
 
@@ -47,7 +47,7 @@ def ladder(passage):
 
 
 def profiles(passage, rows, moment_sets=(slice(None),), notify=lambda done, total: None):
-    """List of the :class:`Profile` under each row and for each set of moments (all sets of one row are neighbours).
+    """List of the :class:`DepthProfile` under each row and for each set of moments (all sets of one row are neighbours).
 
     passage: a :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; rows: numbers of rows of its reader; moment_sets:
     sets of moments (slices or arrays of their numbers); notify: called with (done, total) parts of the stresses, then of the
@@ -62,7 +62,7 @@ def profiles(passage, rows, moment_sets=(slice(None),), notify=lambda done, tota
 
 
 def _profiles(passage, depths, histories, moment_sets, row):
-    """The Profile of each set of moments.
+    """The DepthProfile of each set of moments.
 
     A set that is part of the first one keeps the first one's planes where it reaches the same value on them.
     """
@@ -92,12 +92,12 @@ def _searched(passage, depths, histories, known):
 
 
 def of_row(passage, depths, histories, row):
-    """The Profile of histories (depths, x', moments, 6) Pa under one row (its number) of the reader, for all moments."""
+    """The DepthProfile of histories (depths, x', moments, 6) Pa under one row (its number) of the reader, for all moments."""
     return _profiles(passage, depths, histories, (slice(None),), row)[0]
 
 
 def _profile(passage, depths, histories, f, row):
-    """The Profile of histories (depths, x', moments, 6) Pa whose values f (depths, x') Pa are known."""
+    """The DepthProfile of histories (depths, x', moments, 6) Pa whose values f (depths, x') Pa are known."""
     logs, y, strength = np.log(depths), float(passage.reader.y[row]), passage.strength
 
     def search(stress, depth):
@@ -108,7 +108,7 @@ def _profile(passage, depths, histories, f, row):
     compared = f * np.array(strength.shares(depths))[:, None]
     depth, point, *rest = _refined(strength, logs, histories, compared, search)
     worst = WorstPoint(depth, float(passage.x[point]), y, *rest, strength.at(depth))
-    return Profile(depths, f, worst, _mises(passage, logs, histories, y) if passage.steel else None)
+    return DepthProfile(depths, f, worst, _mises(passage, logs, histories, y) if passage.steel else None)
 
 
 def _mises(passage, logs, histories, y):

@@ -16,8 +16,9 @@ from tehl_taichi.fatigue.worst_point import worst_of
 
 @dataclass(frozen=True)
 class DepthResult:
-    """Results of a search: profiles below rows (:class:`tehl_taichi.fatigue.depth_profile.Profile`), those of the early moments
-    if requested, the plane that was searched at all points, and that of the early moments at their own worst depth (or None).
+    """Results of a search: profiles below rows (:class:`tehl_taichi.fatigue.depth_profile.DepthProfile`), those of the early
+    moments if requested, the plane that was searched at all points, and that of the early moments at their own worst depth (or
+    None).
     """
 
     profiles: list

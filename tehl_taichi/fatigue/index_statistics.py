@@ -59,8 +59,8 @@ def sample(counts):
 
 
 def below(passage, profiles, counts):
-    """Statistics at DEPTHS below the rows of `profiles` (:class:`tehl_taichi.fatigue.depth_profile.Profile`): "by_depth", and
-    those of the depth with the largest 99th percentile, at least one cell deep. Between the searched depths the stress is
+    """Statistics at DEPTHS below the rows of `profiles` (:class:`tehl_taichi.fatigue.depth_profile.DepthProfile`): "by_depth",
+    and those of the depth with the largest 99th percentile, at least one cell deep. Between the searched depths the stress is
     linear in the logarithm of the depth.
     """
     rows = [int(np.argmin(np.abs(passage.y - profile.worst.y))) for profile in profiles]

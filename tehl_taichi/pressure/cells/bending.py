@@ -41,7 +41,7 @@ def bend(F: ti.template(), H0: ti.f64):
         F.S[H, k] = F.S[GAP0, k] + (column(F.K, c[0], s, i) + H0)
 
 
-class Memory:
+class BendingFields:
     """Fields that :func:`bend` uses; K: the Convolutions of the deflection."""
 
     def __init__(self, levels, K):
@@ -54,7 +54,7 @@ class CellBending:
     def __init__(self, levels):
         shape = convolution.transform_sizes([(levels.nx, levels.ny)], [])[0]
         K = Convolutions(levels, [convolution.deflection(shape, levels)], "f64", np.dtype(float))
-        self.memory = Memory(levels, K)
+        self.memory = BendingFields(levels, K)
 
     def bend(self, H0):
         """Set H from the pressure in the table and the rigid approach H0."""

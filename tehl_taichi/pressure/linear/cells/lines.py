@@ -45,7 +45,7 @@ class LineLevel(Level):
         return self.blocks * W
 
 
-class Lines:
+class CyclicLines:
     """Lines of the levels with a distribution; symbols: of these distributions; F: field of the blocks of all lines."""
 
     def __init__(self, levels, symbols):

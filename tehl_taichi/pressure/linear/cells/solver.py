@@ -34,12 +34,12 @@ from tehl_taichi.pressure.linear.solver import dense_entries
 ENOUGH, CONTINUES = 1, 0
 
 
-class Memory:
+class CellFields:
     """Constants and fields that kernels of a solver use.
 
     S, J: tables (see :mod:`fields`). V: vectors. D: inverse of the coarsest level. levels: list of Level. K, Q: Convolutions of
-    the deflection and of the distributions. lines: Lines. most: largest number of iterations. bounds: between the kinds of
-    nodes.
+    the deflection and of the distributions. lines: CyclicLines. most: largest number of iterations. bounds: between the kinds
+    of nodes.
     """
 
     def __init__(self, levels, symbols):
@@ -54,7 +54,7 @@ class Memory:
         self.solved = [self.levels[l] for l in (*v.lines, *v.dense)]
         self.K = Convolutions(v, symbols[:1], v.precision, v.linear)
         self.Q = Convolutions(v, symbols[1:], v.precision, v.linear)
-        self.lines = lines.Lines(v, symbols[1:])
+        self.lines = lines.CyclicLines(v, symbols[1:])
         self.bounds = (REST, *STORED) if v.ny else (REST_LINE, *STORED_LINE)
 
 
@@ -203,7 +203,7 @@ class CellKrylov:
         v = self.levels = levels
         shapes = symbols_of.transform_sizes(v.sizes, v.lines)
         self.symbols = [symbols_of.deflection(shapes[0], v), *(symbols_of.distribution(c, v) for c in shapes[1:])]
-        self.memory = Memory(v, self.symbols)
+        self.memory = CellFields(v, self.symbols)
         self.most, sums = self.memory.most, DOT_SUM + self.memory.most
         self.out = ti.ndarray(ti.f32 if v.precision == "f32" else ti.f64, v.n)
         sizes = (gmres.TRIANGLE + self.most, self.most + 16), (sums, CHUNKS), (sums, GROUPS), (1, sums)
