@@ -154,7 +154,7 @@ def test_one_warning_for_what_single_peaks_leave_unknown():
     search = {"rough": True, "Fi_max": 1.3, "unknown": {"Fi_max": "narrow"}, "below": {"Fi_max": 2.0, "depth_m": 1e-5}}
     told = {"steady": {}, "transient": why, "fatigue": search, "fatigue_by_surface": {"b": search}}
     said, = result_warnings.of_single_peaks(SimpleNamespace(scene=tehl.scene("rough")), told)
-    assert "passage p_max_Pa, Fi_max" in said and said.data["numbers"] == ["passage p_max_Pa", "Fi_max"]
+    assert "passage p_max, Fi_max" in said and said.data["numbers"] == ["passage p_max_Pa", "Fi_max"]
     assert not {"peak", "resolved", "unknown"} & set(result_warnings.ROUGH_CHECKS.values())
 
 
