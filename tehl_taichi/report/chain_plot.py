@@ -9,6 +9,7 @@ from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.view.figures.index_text import largest
 from tehl_taichi.view.figures.moments import WINDOW, Moments
 from tehl_taichi.view.figures.palette import GREY
+from tehl_taichi.view.zoom_window import ZoomWindow
 
 LEFT, RIGHT, TOP, BOTTOM = [0.0, 0.44], [0.56, 1.0], [0.6, 1.0], [0.0, 0.4]
 TITLES = ("1 load: pressure (GPa) over x/a", "2 stress (MPa)", "3 strength, and the stress dotted (MPa)",
@@ -50,11 +51,17 @@ def _layout():
 
 
 def _load(store):
-    """Lines of the pressure along the row of lines at the moment of its largest value, and of the smooth contact."""
-    X, moments = store.x / Scales.of(store.scene).a, Moments(store)
+    """Lines of the pressure along the row of lines at the moment of its largest value (of that in a zoom window, where there is
+    one), and of the smooth contact.
+    """
+    a, moments, window = Scales.of(store.scene).a, Moments(store), ZoomWindow.of(store)
+    row = window.row(store.y[moments.line]) if window and window.entries.size else None
+    worst, X = moments.worst if row is None else window.worst, store.x / a
     shown = (X >= WINDOW[0]) & (X <= WINDOW[1])
-    p = {n: store.fields(n, ("pressure",))["pressure"][shown, moments.line] / 1e9 for n in (moments.worst, 0)}
-    return [line(X[shown], p[moments.worst], f"with the {feature_word(store.scene)}", colour(0)),
+    p = {n: store.fields(n, ("pressure",))["pressure"][shown, moments.line] / 1e9 for n in (worst, 0)}
+    fine = [] if row is None else [line(window.columns(worst) / a, window.fields(worst, ["pressure"])["pressure"][:, row] / 1e9,
+                                        "zoom window", colour(4))]
+    return [line(X[shown], p[worst], f"with the {feature_word(store.scene)}", colour(0)), *fine,
             line(X[shown], p[0], "smooth contact", GREY, dash="dash")]
 
 

@@ -80,10 +80,19 @@ def _near(box, part, cell):
 
 
 def deeper(found, run):
-    """The SearchResult `found` of some points, with the stresses of the run (SearchResult) at the depths below them."""
+    """The SearchResult `found` of some points, with the stresses of the run (SearchResult) at the depths below them, and with its
+    smooth contact."""
     others = run.by_surface
-    return replace(_deeper(found, others[found.numbers["surface"]]),
-                   other=found.other and _deeper(found.other, others[found.other.numbers["surface"]]))
+    return replace(_of_run(found, others[found.numbers["surface"]]),
+                   other=found.other and _of_run(found.other, others[found.other.numbers["surface"]]))
+
+
+def _of_run(found, run):
+    result = _deeper(found, run)
+    if run.findley_stress_contact_alone is None or result.findley_stress_under_row is None:
+        return result
+    smooth = np.interp(result.row_depths, run.row_depths, run.findley_stress_contact_alone)
+    return replace(result, findley_stress_contact_alone=smooth)
 
 
 def _deeper(found, run):

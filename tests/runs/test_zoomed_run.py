@@ -3,11 +3,15 @@
 import json
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi.fatigue.judged_surfaces import by_surface
+from tehl_taichi.fatigue.search_result import SearchResult
+from tehl_taichi.report import chain_plot
 from tehl_taichi.store.reader import Reader
 
 LINE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid.nx": 64, "fatigue.surfaces": "a",
@@ -69,6 +73,18 @@ def test_its_fatigue_with_other_constants_has_the_window(plain, zoomed):
     assert half["Fi_max"] == pytest.approx(stored["Fi_max"] / 2, rel=1e-6)
     assert half["Fi_max"] != pytest.approx(plain.fatigue(endurance=800e6).summary["Fi_max"], rel=1e-3)
     assert half["error"]["Fi_max"] == pytest.approx(stored["error"]["Fi_max"] / 2, rel=1e-5)
+
+
+def test_its_page_has_pressure_of_the_window_and_stress_of_the_smooth_contact(zoomed):
+    """From the load to the verdict: the depths of the window differ from those of the run."""
+    store = zoomed.store
+    result = SearchResult.from_arrays(by_surface(store.summary), store.map)
+    figure, = chain_plot.figures(store, SimpleNamespace(result=result, scene=store.scene, on=""))
+    lines = {(one["name"], one["xaxis"]): np.array(one["y" if one["xaxis"] == "x" else "x"]) for one in figure.traces}
+    assert lines["zoom window", "x"].max() * 1e9 == pytest.approx(store.map("zoom_pressure").max(), rel=1e-6)
+    assert lines["zoom window", "x"].max() != lines["with the feature", "x"].max()
+    smooth = lines["smooth contact", "x4"].max()
+    assert smooth == pytest.approx(zoomed.summary["fatigue"]["contact_alone"]["Fi_max"], rel=0.01)
 
 
 def test_its_fields_are_stored_with_their_places(zoomed):
