@@ -114,3 +114,7 @@ def test_it_is_printed_with_what_the_body_bears():
     fatigue = search()[2]
     row, = [row for row in search_rows.rows_of_fatigue(fatigue) if row.what == "largest von Mises stress"]
     assert row.number == fatigue["von_mises"]["max_Pa"] and row.note == ", yield stress 2.2 GPa" and "GPa" in row.value
+    softer = {**fatigue["von_mises"], "surface": "other", "max_Pa": 0.9 * row.number, "yield_stress_Pa": 1e9}
+    row, = [row for row in search_rows.rows_of_fatigue(fatigue, {"other": {**fatigue, "von_mises": softer}})
+            if row.what == "largest von Mises stress"]
+    assert row.number == softer["max_Pa"] and row.where.endswith("(other)")  # that body is nearer to its yield stress

@@ -18,7 +18,7 @@ def rows_of_fatigue(f, beside=MappingProxyType({})):
     """
     why = why_none(f)
     rows = [*_worse(f, beside), *alone_rows(searched(f).get("contact_alone")), *_distribution_rows(searched(f)),
-            *_rows_of_search(searched(f)),
+            *_rows_of_search(searched(f)), *_von_mises_rows([f, *beside.values()]),
             *(row for name, other in beside.items() for row in _rows_of_other(name, searched(other)))]
     if not why:
         return rows
@@ -80,7 +80,7 @@ def _rows_of_search(f):
     rows += [_stress(f"largest at {depth_text(layer)}", layer["findley_stress_max_Pa"]) for layer in f.get("by_depth", [])]
     rows += _stressed_rows(f)
     early = [] if f.get("rough") else _resolved_rows(f)
-    return early + _averaged_rows(f) + [replace(row, part=SURFACE) for row in rows] + _below_rows(f) + _von_mises_rows(f)
+    return early + _averaged_rows(f) + [replace(row, part=SURFACE) for row in rows] + _below_rows(f)
 
 
 def _stressed_rows(f):
@@ -96,9 +96,15 @@ def _stressed_rows(f):
             *(SummaryRow(f"probability of a crack {where}", f"{chance:.2g}", chance) for chance, where in chances)]
 
 
-def _von_mises_rows(f):
-    """Largest von Mises stress of the body, and its yield stress."""
-    if not (found := f.get("von_mises")):
+def nearest_to_yield(searches):
+    """Part "von_mises" of the body nearest to its yield stress, of the summaries of its searches; None without any."""
+    found = [part for one in searches if (part := searched(one).get("von_mises"))]
+    return max(found, key=lambda part: part["max_Pa"] / part["yield_stress_Pa"], default=None)
+
+
+def _von_mises_rows(searches):
+    """Largest von Mises stress of the body nearest to its yield stress, and that."""
+    if not (found := nearest_to_yield(searches)):
         return []
     where = at_depth(found) if found["depth_m"] else ", at the surface"
     return [row_of(found, "max_Pa", "largest von Mises stress", 1e-9, "GPa", where=f"{where} ({found['surface']})",

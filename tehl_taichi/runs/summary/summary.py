@@ -4,13 +4,13 @@ import numpy as np
 
 from tehl_taichi import __version__
 from tehl_taichi.fatigue import index_statistics
-from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.laws import conduction
 from tehl_taichi.laws.law import beyond
 from tehl_taichi.march import quantities
 from tehl_taichi.march.accuracy.coarse_runs import FI, RUN_IN, distributions, indices, of_run_in, von_mises_parts
 from tehl_taichi.runs.summary import life, result_warnings
 from tehl_taichi.runs.summary.film_warnings import worst_ripple
+from tehl_taichi.runs.summary.search_rows import nearest_to_yield
 from tehl_taichi.scene import surface_roughness
 from tehl_taichi.scene.film_formula import central_film, formula_words, spread
 from tehl_taichi.scene.scales import Scales, peclet
@@ -66,8 +66,7 @@ def summarise(store, extra, searches=None):
 def _von_mises(out):
     """Largest von Mises stress of the body nearest to its yield stress, if stresses were searched."""
     searches = out.get("fatigue_by_surface") or out.get("contact_alone_by_surface", {})
-    found = [part for one in searches.values() if (part := searched(one).get("von_mises"))]
-    worst = max(found, key=lambda part: part["max_Pa"] / part["yield_stress_Pa"], default=None)
+    worst = nearest_to_yield(searches.values())
     return {"von_mises": dict(worst)} if worst else {}
 
 
