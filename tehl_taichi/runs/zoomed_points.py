@@ -80,8 +80,8 @@ def _near(box, part, cell):
 
 
 def deeper(found, run):
-    """The SearchResult `found` of some points, with the stresses of the run (SearchResult) at the depths below them, and with its
-    smooth contact."""
+    """The SearchResult `found` of some points, with the stresses of the run (SearchResult) at the depths below them, and with
+    its smooth contact."""
     others = run.by_surface
     return replace(_of_run(found, others[found.numbers["surface"]]),
                    other=found.other and _of_run(found.other, others[found.other.numbers["surface"]]))
