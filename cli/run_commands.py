@@ -22,7 +22,7 @@ def register(app):
 def run(
     scene: str = typer.Argument("gear", help="built-in name (see `tehl scenes`), TOML file, or store to repeat"),
     context: typer.Context = None,
-    srr: Optional[float] = number("slide-to-roll ratio (u_a - u_b)/u_m; negative in the dedendum"),
+    srr: Optional[float] = number("slide-roll ratio (u_a - u_b)/u_m; negative in the dedendum"),
     load: Optional[float] = number("load, N/m (line contact) or N (point contact)"),
     hertz_pressure: Optional[float] = number("Hertz pressure, Pa (instead of a load)"),
     speed: Optional[float] = number("mean surface speed u_m, m/s"),

@@ -107,7 +107,8 @@ def figures(flank):
 def _figure(flank, n, title, lines):
     """One of these figures, with the points A to E."""
     letters = ", dotted: the points of the path of contact" if flank.points else ""
-    made = stack(f"flank-{n}", f"{sentence_case(title)}; dedendum left of the pitch point{letters}.", ALONG,
+    once = "" if n else f"; dedendum left of the pitch point{letters}"
+    made = stack(f"flank-{n}", f"{sentence_case(title)}{once}.", ALONG,
                  [(title, lines, {})], height=330)
     made.layout["shapes"] = [_mark(x * 1e3) for x in flank.points.values()]
     made.layout["annotations"] = [{"text": name, "x": x * 1e3, "xref": "x", "yref": "paper", "y": 1, "yanchor": "bottom",

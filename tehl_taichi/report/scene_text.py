@@ -58,7 +58,7 @@ def _motion(scene):
         return f"The surfaces roll at {o.u_m:.4g} m/s without slip."
     kind = "slower" if scene.reference.speed < o.u_m else "faster"
     carries = f"; the {feature_word(scene)} is on the {kind} surface, {scene.reference.name}" if scene.features else ""
-    return (f"The surfaces move at {o.u_a:.4g} m/s (a) and {o.u_b:.4g} m/s (b): mean {o.u_m:.4g} m/s, slide-to-roll ratio "
+    return (f"The surfaces move at {o.u_a:.4g} m/s (a) and {o.u_b:.4g} m/s (b): mean {o.u_m:.4g} m/s, slide-roll ratio "
             f"{o.srr:+.3g}{carries}.")
 
 
@@ -131,7 +131,7 @@ def numbers(scene):
     rows = [("Hertz pressure p_H", value_text(s.p_H, unit="Pa")), ("half-width a", value_text(s.a, unit="m")),
             *([] if s.line else [("half-axis b, across", value_text(s.b, unit="m"))]), ("load", _load(scene)),
             ("reduced radius R'", value_text(s.R, unit="m")), ("reduced modulus E'", value_text(s.E, unit="Pa")),
-            ("mean speed u_m", f"{scene.operation.u_m:.4g} m/s"), ("slide-to-roll ratio", f"{scene.operation.srr:g}"),
+            ("mean speed u_m", f"{scene.operation.u_m:.4g} m/s"), ("slide-roll ratio", f"{scene.operation.srr:g}"),
             *oil_numbers(scene)]
     return rows
 

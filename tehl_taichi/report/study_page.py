@@ -10,7 +10,7 @@ from tehl_taichi.report.run_page import scene_section
 from tehl_taichi.report.study_plots import figures
 from tehl_taichi.report.verdict import limit_words
 from tehl_taichi.runs.sweep import study_figures
-from tehl_taichi.runs.sweep.study_labels import label_with_value, name_and_unit
+from tehl_taichi.runs.sweep.study_labels import key_name, label_with_value, name_and_unit
 from tehl_taichi.runs.sweep.study_table import Study, attributes
 from tehl_taichi.scene.aliases import full_name
 from tehl_taichi.values.digits import with_error
@@ -23,7 +23,7 @@ ERROR, BELOW = "fatigue_error_Fi_max", "fatigue_below_Fi_max"
 def of(folder):
     """The :class:`tehl_taichi.report.document.Page` of the study in `folder`. Raises StoreError."""
     study = Study.open(folder)
-    scene, keys = study.plan.scene, ", ".join(study.plan.keys)
+    scene, keys = study.plan.scene, ", ".join(map(key_name, study.plan.keys))
     return Page(f"{scene.name}: report of a study", f"{scene.name}: {len(study)} cases over {keys}", _answer(study), (
         Section("Results", (figure_block(*figures(study)),)), Section("Cases", (_table(study), _rest(study))),
         Section("Without a result", (sentences(_failed(study)),)), _scene(study),

@@ -188,8 +188,8 @@ def test_a_study_shows_its_results_and_what_failed(pages):
     seen = pages["study"]
     assert "is above 1 in 1 of 8 cases with a result" in seen.text and "Without a result: 1 of 9 cases" in seen.text
     assert "Fi = 1 is the fatigue limit σ_eF = 400 MPa with κ = 0.3 (findley): example values" in seen.text
-    assert "The largest is Fi = 1.05: slide-to-roll ratio -0.1, feature height 1.5 µm." in seen.text
-    assert "Case 5 (slide-to-roll ratio 0, feature height 1.5 µm): not converged: made up" in seen.text
+    assert "The largest is Fi = 1.05: slide-roll ratio -0.1, feature height 1.5 µm." in seen.text
+    assert "Case 5 (slide-roll ratio 0, feature height 1.5 µm): not converged: made up" in seen.text
     cells = numbers(seen.figures["fatigue_Fi_max-map"]["data"][0])
     assert np.isnan(cells).sum() == 1 and np.nanmax(cells) == pytest.approx(1.05)
     assert len(seen.figures["fatigue_Fi_max-lines"]["data"]) == 3

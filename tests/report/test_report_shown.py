@@ -183,3 +183,13 @@ def test_paper_has_the_answer_and_its_figures_on_two_pages(browser, whole):
     browser.ask("Emulation.setEmulatedMedia", media="")
     browser.run("dispatchEvent(new Event('afterprint')); new Promise(done => setTimeout(done, 500))")
     assert browser.run("document.querySelector('.front .plot').offsetHeight") > plot
+
+
+def test_figures_along_a_flank_fit_a_printed_page(browser, others):
+    """Seven, in three columns; those of a study, too."""
+    for path in others:
+        browser.open(path, width=WIDE)
+        browser.ask("Emulation.setEmulatedMedia", media="print")
+        browser.run("dispatchEvent(new Event('beforeprint')); new Promise(done => setTimeout(done, 500))")
+        assert browser.run("document.querySelector('section.front').getBoundingClientRect().height") < PAGE, path
+        browser.ask("Emulation.setEmulatedMedia", media="")

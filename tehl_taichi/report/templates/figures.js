@@ -1,7 +1,8 @@
 "use strict";
 (() => {
   const PAPER = 660; // px, width of a printed page between its margins
-  const LOW = 380, LOWER = 290; // px, heights of the figures of the answer on paper: alone, and side by side
+  const LOW = 380, LOWER = 290, LOWEST = 240; // px, heights of the figures of the answer on paper: alone, side by side, and in
+                                              // three rows
   const touch = matchMedia("(pointer: coarse)").matches; // there a finger on a figure scrolls the page
   const BUTTONS = [["toImage"], ["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d"]]; // none that sends data anywhere
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -66,12 +67,13 @@
     document.documentElement.classList.add("print");
     repaint(place => {
       const row = place.closest(".row"), many = row ? row.children.length : 1, front = place.closest(".front");
-      const width = many === 1 ? PAPER : front && many === 3 ? PAPER / 3 - 11 : PAPER / 2 - 8;
+      const three = front && row && row.classList.contains("three");
+      const width = many === 1 ? PAPER : three ? PAPER / 3 - 11 : PAPER / 2 - 8;
       if (!front) return {width};
-      const height = Math.min(place.offsetHeight, many === 1 ? LOW : LOWER);
+      const height = Math.min(place.offsetHeight, many === 1 ? LOW : many > 6 ? LOWEST : LOWER);
       place.dataset.height = place.dataset.height || place.style.height;
       place.style.height = `${height}px`;
-      return {width, height, "font.size": many === 3 ? 9 : 12};
+      return {width, height, "font.size": three ? 9 : 12};
     });
   };
   const toScreen = () => {

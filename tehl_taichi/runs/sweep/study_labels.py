@@ -7,7 +7,7 @@ from tehl_taichi.scene.aliases import full_name
 from tehl_taichi.values.digits import printed_unit
 
 # of keys that are swept often; others keep their name
-KEYS = {"operation.srr": "slide-to-roll ratio", "operation.u_m": "mean speed", "operation.temperature": "inlet temperature",
+KEYS = {"operation.srr": "slide-roll ratio", "operation.u_m": "mean speed", "operation.temperature": "inlet temperature",
         "operation.u_a": "speed of surface a", "operation.u_b": "speed of surface b", "contact.load": "load",
         "contact.hertz_pressure": "Hertz pressure", "contact.radius_x": "reduced radius along x",
         "contact.radius_y": "reduced radius across", "fatigue.kappa": "κ", "fatigue.endurance": "fatigue limit",

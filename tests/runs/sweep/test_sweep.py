@@ -44,7 +44,7 @@ def study(tmp_path_factory):
 @pytest.mark.parametrize("key, value, shown", [
     ("oil.nu_40", 220e-6, "kinematic viscosity at 40 °C (mm²/s)"), ("height", 220e-6, "feature height (µm)"),
     ("oil.alpha_40", 22e-9, "pressure coefficient at 40 °C (1/GPa)"), ("feature.0.x", 30e-6, "feature x (µm)"),
-    ("srr", 30.0, "slide-to-roll ratio"), ("temperature", 90.0, "inlet temperature (°C)"), ("load", 100.0, "load (N/m)"),
+    ("srr", 30.0, "slide-roll ratio"), ("temperature", 90.0, "inlet temperature (°C)"), ("load", 100.0, "load (N/m)"),
     ("rheology.tau_L0", 3e7, "rheology.tau_L0 (MPa)")])
 def test_keys_have_names_and_the_units_of_data_sheets(key, value, shown):
     factor, label = study_labels.of_key(GEAR, key, value)
