@@ -239,11 +239,11 @@ def _draw(store, out, options, page):
     from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, RUN, kind
 
     which = kind(store)
+    found: Any = tehl.open(store)
     for name, value in options.items():
         if value is not None and name not in OPTIONS[which]:
             whose = next(other for other, options in OPTIONS.items() if name in options)
             raise SceneError(f"--{name} {value} applies to a {whose}, but {store} is a {which}")
-    found: Any = tehl.open(store)
     if which == RUN:
         _say_lacking(found)
     mine = {name: options[name] for name in OPTIONS[which]}

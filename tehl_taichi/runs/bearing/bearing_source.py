@@ -80,8 +80,6 @@ def _from_file(path, given):
     """Read a bearing file. Its keys: name; bearing (a table, with `base` a designation for missing values); scene (a built-in
     one or a file beside this one).
     """
-    from tehl_taichi.store.load_scene import find
-
     data = toml_file.read(path, "bearing")
     for key in data:
         if key not in KEYS:
@@ -95,11 +93,17 @@ def _from_file(path, given):
         text("base", data["base"])
         found = designation(data["base"])
         base, source, estimated = found.keys, f"{path} on {data['base']}: {found.source}", found.estimated
-    named = data.get("scene", SCENE)
+    return _made(data.get("name", path.stem), {**base, **own, **given}, source, estimated, {**own, **given},
+                 _scene_beside(path, data["scene"]) if "scene" in data else None)
+
+
+def _scene_beside(path, named):
+    """Scene that a bearing file names: a built-in one, or a file beside it."""
+    from tehl_taichi.store.load_scene import find
+
     text("scene", named)
     beside = path.parent / named
-    return _made(data.get("name", path.stem), {**base, **own, **given}, source, estimated, {**own, **given},
-                 find(str(beside) if beside.is_file() else named))
+    return find(str(beside) if beside.is_file() else named)
 
 
 def default_scene():

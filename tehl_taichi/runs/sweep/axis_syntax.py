@@ -77,8 +77,8 @@ def axis(keys, columns):
     """Axis of keys with a column of values each. Raises SceneError for columns of different length or a repeated row."""
     if any(isinstance(column, Span) for column in columns):
         key, span = next((k, c) for k, c in zip(keys, columns) if isinstance(c, Span))
-        raise SceneError(f"{key} = {span.low:g}:{span.high:g} has no number of values; use {span.low:g}:{span.high:g}:N, or "
-                         "--samples N for all keys")
+        raise SceneError(f"{key} = {span.low:g}:{span.high:g} has no number of values; use {span.low:g}:{span.high:g}:N "
+                         "(in a sweep also --samples N for all keys)")
     lengths = {key: len(column) for key, column in zip(keys, columns)}
     if len(set(lengths.values())) > 1:
         raise SceneError("keys that change together need equally many values: "

@@ -218,6 +218,15 @@ def test_a_file_names_a_bearing(tmp_path):
     assert bearing_source(file, {}).bearing.rollers and bearing_source(file, {}).estimated == ()
 
 
+def test_a_file_without_a_scene_passes_no_feature(tmp_path):
+    """The default scene gives oil and numerics alone, whether a designation or a file names the bearing."""
+    file = tmp_path / "mine.toml"
+    for scene, passes in (("", False), ('scene = "gear"\n', True)):
+        file.write_text(f'base = "6206"\n{scene}')
+        found = tehl.bearing(file, run=False, folder=tmp_path / f"b{passes}")
+        assert bool(tehl.scene(found.rings["inner"]["scene_file"]).features) == passes
+
+
 @pytest.mark.parametrize("name", ["6206", "6206-2RS1", "6206 C3", "SKF 6206/C3", "6206-2Z"])
 def test_suffixes_of_seals_and_clearance_make_no_other_balls(name):
     found = bearing_source(name, {})
