@@ -1,5 +1,6 @@
 """tehl compare: comparison of runs, flanks, bearings, cams or studies."""
 
+import os
 from pathlib import Path
 from typing import Any, List, Optional
 
@@ -22,8 +23,8 @@ def compare(
                                                   "or cams, or studies over the same keys"),
     context: typer.Context = None,
     at: float = typer.Option(0.0, help="runs: position of the feature in the centreline plots, in half-widths a"),
-    out: Optional[Path] = typer.Option(None, help="figure to write: .png, .pdf or .svg (default: compare.png beside the first "
-                                                  "store)"),
+    out: Optional[Path] = typer.Option(None, help="figure to write: .png, .pdf or .svg (default: compare.png, compare-2.png "
+                                                  "... beside the first store)"),
     format: Format = "png",
     dpi: Dpi = 160,
     width: Width = 17.0,
@@ -42,7 +43,7 @@ def compare(
 
     number("--at", at, "a", -20.0, 20.0)
     found: Any = side_by_side(*stores)
-    place, page = out or stores[0].parent / "compare", dict(dpi=dpi, format=format, width=width, force=force)
+    place, page = out or _free_figure(stores[0].parent, format, force), dict(dpi=dpi, format=format, width=width, force=force)
     if isinstance(found, Comparison):
         figure = found.plot(place, at, **page)
     else:
@@ -56,12 +57,18 @@ def compare(
     say(str(figure))
 
 
+def _free_figure(folder, format, force):
+    """First of compare, compare-2 ... in the folder without a figure of this format."""
+    names = ("compare", *(f"compare-{n}" for n in range(2, 1000)))
+    return folder / next((name for name in names if force or not os.path.lexists(folder / f"{name}.{format}")), "compare")
+
+
 def _scenes(found):
     from tehl_cli.tables import list_table
 
     if not found.differs:
         return put("the settings are identical")
-    rows = [(key, *map(_shown, values)) for key, values in found.differs.items()]
+    rows = [(_with_unit(key), *map(_shown, values)) for key, values in found.differs.items()]
     list_table("differences between the settings", ("key", *found.names), rows, whole=True)
 
 
@@ -106,6 +113,15 @@ def _legend(changes):
 
     if NOT_SEPARATED in changes:
         put(f"{NOT_SEPARATED}: the error bars overlap")
+
+
+def _with_unit(key):
+    """A key with its SI unit."""
+    from tehl_taichi.runs.sweep.plan import unit
+    from tehl_taichi.scene import scene
+
+    found = "" if key == "contact.load" else unit(scene("gear"), key)  # N or N/m, by the contact.kind
+    return f"{key}, {found}" if found not in ("", "1") else key
 
 
 def _shown(value):

@@ -193,6 +193,17 @@ def test_the_command_prints_and_writes(two, tmp_path):
     assert done.exit_code == 0 and "operation.srr" in done.stdout and (tmp_path / "c.png").exists()
     told = json.loads(CliRunner().invoke(app, ["compare", *map(str, two), "--json"]).stdout)
     assert told["differs"]["operation.srr"] == [-0.12, 0.12] and told["figure"] == str(two[0].parent / "compare.png")
+    again = CliRunner().invoke(app, ["compare", *map(str, two), "--json"])
+    assert again.exit_code == 0 and json.loads(again.stdout)["figure"] == str(two[0].parent / "compare-2.png")
+
+
+def test_settings_have_their_units():
+    from tehl_cli.compare_command import _with_unit
+
+    keys = "oil.nu_40", "oil.G0", "operation.temperature", "feature.0.height", "bodies.a.E", "contact.load", "made.up"
+    assert [_with_unit(key) for key in keys] == [
+        "oil.nu_40, m2/s", "oil.G0", "operation.temperature, deg C", "feature.0.height, m", "bodies.a.E, Pa", "contact.load",
+        "made.up"]
 
 
 @pytest.mark.parametrize("pick, why", [((0,), "1 stores to compare; allowed: 2 to 8"), ((0, 1, 0), "run.zarr is given twice")])

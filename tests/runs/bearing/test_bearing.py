@@ -221,8 +221,8 @@ def test_a_file_names_a_bearing(tmp_path):
 def test_a_file_without_a_scene_passes_no_feature(tmp_path):
     """The default scene gives oil and numerics alone, whether a designation or a file names the bearing."""
     file = tmp_path / "mine.toml"
-    for scene, passes in (("", False), ('scene = "gear"\n', True)):
-        file.write_text(f'base = "6206"\n{scene}')
+    for line, passes in (("", False), ('scene = "gear"\n', True)):
+        file.write_text(f'base = "6206"\n{line}')
         found = tehl.bearing(file, run=False, folder=tmp_path / f"b{passes}")
         assert bool(tehl.scene(found.rings["inner"]["scene_file"]).features) == passes
 
