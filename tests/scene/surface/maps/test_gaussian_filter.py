@@ -65,13 +65,13 @@ def test_a_filtered_scan_is_turned_like_any(tmp_path):
 
 
 def test_a_store_has_the_heights_of_the_file_and_filters_them_once(tmp_path):
-    import zarr
-
+    
     from tehl_taichi.store import stored_maps
 
     f = feature(waves(tmp_path, CUTOFF, 0), **STEPS, cutoff=CUTOFF)
     described = dataclasses.replace(scene("gear"), features=(f,))
-    stored_maps.write(zarr.create_group(tmp_path / "a.zarr"), described)
+    (tmp_path / "a.zarr").mkdir()
+    stored_maps.write(tmp_path / "a.zarr", described)
     (tmp_path / "waves.npy").unlink()
     again, = stored_maps.scene_of(tmp_path / "a.zarr", described.to_dict()).features
     assert again == f and again.cutoff == CUTOFF

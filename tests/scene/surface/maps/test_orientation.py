@@ -72,7 +72,7 @@ def test_a_store_has_the_heights_as_they_are_in_the_file(scan, tmp_path):
     f = feature(scan, **STEPS, transpose=True)
     described = dataclasses.replace(scene("gear"), features=(f,))
     group = zarr.create_group(tmp_path / "a.zarr")
-    stored_maps.write(group, described)
+    stored_maps.write(tmp_path / "a.zarr", described)
     (_, kept), = group.arrays()
     np.testing.assert_array_equal(kept[...], np.load(scan))
     assert kept.attrs["pixel_m"] == [2e-6, 3e-6] and kept.metadata.dimension_names[0].endswith("_row")
