@@ -155,14 +155,19 @@ def test_a_window_with_temperatures_has_the_surface_heat_and_residual_stress_aft
         assert now["below"]["Fi_max"] == pytest.approx(there["below"]["Fi_max"], rel=0.02), body
 
 
-def test_a_window_with_more_pressure_than_steel_flowed_under_is_a_warning():
+def test_a_window_says_that_steel_flowed_on_the_grid_of_the_run():
+    """And under less pressure than it has, where that is so."""
     zoom = {"p_max_Pa": 5.5e9, "base": {"p_max_Pa": 5e9}}
-    run_in = {"new_plastic_strain": 0.0, "plastic_strain_max": 1e-3, "unsettled_m": 0.0, "contained": True}
+    run_in = {"new_plastic_strain": 0.0, "plastic_strain_max": 1e-3, "unsettled_m": 0.0, "contained": True,
+              "surface_change_max_m": 1.73e-7, "error": {"surface_change_max_m": 2.5e-8}}
     store = SimpleNamespace(scene=STEEL)
     said, = result_warnings.running_in(store, {"run_in": run_in, "zoom": zoom})
-    assert "under the pressures of the run, up to 5.00 GPa, while the zoom window has 5.50 GPa" in said
+    assert "bars of the zoom window do not contain that of the run-in" in said and "(surface change 173 ± 25 nm); it" in said
+    assert "it flowed under up to 5.00 GPa, while the window has 5.50 GPa" in said
     for less in ({"p_max_Pa": 5.1e9, "base": {"p_max_Pa": 5e9}}, {"p_max_Pa": 4.5e9, "base": {"p_max_Pa": 4e9}}):
-        assert not list(result_warnings.running_in(store, {"run_in": run_in, "zoom": less}))
+        said, = result_warnings.running_in(store, {"run_in": {**run_in, "error": {"surface_change_max_m": None}}, "zoom": less})
+        assert said.endswith("(surface change 173 nm, error unknown)")
+    assert not list(result_warnings.running_in(store, {"run_in": {**run_in, "plastic_strain_max": 0.0}, "zoom": zoom}))
     assert not list(result_warnings.running_in(store, {"run_in": run_in}))
 
 

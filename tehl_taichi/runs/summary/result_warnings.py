@@ -16,7 +16,7 @@ from tehl_taichi.scene import yield_stress
 from tehl_taichi.scene.refinement import finer_grid_option, zoom_option
 from tehl_taichi.values.coded_text import Reason, reasons_of
 from tehl_taichi.values.coded_warning import coded_warning, unique, with_data
-from tehl_taichi.values.digits import micrometres
+from tehl_taichi.values.digits import micrometres, with_error
 
 STILL = 0.01  # of the largest plastic strain: a passage that adds less has run in
 ABOVE = 0.03  # of the largest pressure of a run: a window with so much more would make more steel flow
@@ -176,17 +176,21 @@ def running_in(store, summary):
     if not found["contained"]:
         yield with_data("plastic flow of the run-in reaches the rim of the region around the features, or a depth of 1 a; "
                         "surface and residual stress are wrong there")
-    yield from _beyond_run_in(store.scene, summary.get("zoom"))
+    if "zoom" in summary and before > 0:
+        yield _beyond_run_in(store.scene, summary["zoom"], found)
 
 
-def _beyond_run_in(scene, zoom):
-    """Warning about a window whose pressure is higher than that of the run-in."""
-    p, now = (zoom["base"]["p_max_Pa"], zoom["p_max_Pa"]) if zoom else (0.0, 0.0)
-    if now <= max((1 + ABOVE) * p, yield_stress.pressure(scene)):
-        return
-    text = (f"steel flowed under the pressures of the run, up to {p / 1e9:.2f} GPa, while the zoom window has "
-            f"{now / 1e9:.2f} GPa: on a finer grid more would flow")
-    yield with_data(text, p_max_Pa=p, zoom_p_max_Pa=now)
+def _beyond_run_in(scene, zoom, found):
+    """Warning about a window: steel flowed on the grid of the run; found: numbers of the run-in."""
+    p, now, change = zoom["base"]["p_max_Pa"], zoom["p_max_Pa"], found["surface_change_max_m"] * 1e9
+    error = found.get("error", {}).get("surface_change_max_m")
+    size = with_error(change, None if error is None else error * 1e9, "nm")
+    text = ("the error bars of the zoom window do not contain that of the run-in, whose steel flowed on the grid of the run "
+            f"(surface change {size}{', error unknown' * (error is None)})")
+    if now > max((1 + ABOVE) * p, yield_stress.pressure(scene)):
+        text += (f"; it flowed under up to {p / 1e9:.2f} GPa, while the window has {now / 1e9:.2f} GPa: on a finer grid more "
+                 "would flow")
+    return with_data(text, p_max_Pa=p, zoom_p_max_Pa=now, surface_change_m=found["surface_change_max_m"])
 
 
 def place_text(found, um="um"):
