@@ -65,7 +65,7 @@ def test_a_filtered_scan_is_turned_like_any(tmp_path):
 
 
 def test_a_store_has_the_heights_of_the_file_and_filters_them_once(tmp_path):
-    
+
     from tehl_taichi.store import stored_maps
 
     f = feature(waves(tmp_path, CUTOFF, 0), **STEPS, cutoff=CUTOFF)
