@@ -132,5 +132,6 @@ def short_name(key):
     """Name of a number without its unit and its part: h_c for h_c_m, "largest film temperature" for film_max_C."""
     entry = of_key(key)
     if entry and entry.series:
-        return (entry.label.removeprefix(SPOKEN[entry.part]).strip() or entry.name).replace(",", "")
+        what, _, over = (entry.label.removeprefix(SPOKEN[entry.part]).strip() or entry.name).partition(", ")
+        return f"{over} {what}".strip()
     return key.removesuffix(f"_{key.rpartition('_')[2]}") if unit_of(key) else key

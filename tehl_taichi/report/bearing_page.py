@@ -19,6 +19,7 @@ from tehl_taichi.values.digits import printed_unit
 from tehl_taichi.values.quantity import kinds
 
 QUESTION = "Does the bearing carry its load, and how thick is the film?"
+CRACK_QUESTION = "Does the bearing carry its load, and does a fatigue crack start?"  # of one over which a feature passes
 
 
 def of(folder):
@@ -26,9 +27,10 @@ def of(folder):
     found = Bearing.open(folder)
     heads, rows = bearing_table.elements(found)
     store, ring = _store(found)
+    maps = place_sections.critical(store, f"{ring} ring")
     return Page(f"{found.name}: report", found.title, answer(found), (
         Section("Loads and contacts", (facts(bearing_table.facts(found)), figure_block(*figures(found)))),
-        *(dataclasses.replace(one, front=True) for one in place_sections.critical(store, f"{ring} ring")),
+        *(dataclasses.replace(one, front=True) for one in maps[:1]), *maps[1:],
         *place_sections.scene(store, f"the {ring} ring"),
         Section("Both rings", tuple(table(["quantity", "inner ring", "outer ring"], rows, title)
                                     for title, rows in bearing_table.tables(found).items())),
@@ -53,13 +55,19 @@ def answer(found):
     """Answer: static safety, smallest film and its ratio to the roughness; fatigue if a feature passes."""
     ring, worst = min(found.rings.items(), key=lambda entry: entry[1]["static_safety"])
     safe, limit = worst["static_safety"], found.record["static_limit_Pa"]
-    headline = f"{'Yes' if safe >= 1 else 'No'}: static safety {safe:.2f} at the {ring} ring. {_film(found)}"
-    why = [f"The Hertz pressure is {value_text(worst['p_Hertz_Pa'], unit='Pa', digits=FEW)}; ISO 76 allows "
-           f"{limit / 1e9:g} GPa, where the permanent deformation is 0.0001 of the diameter of an element.", *_fatigue(found)]
+    static = f"{'Yes' if safe >= 1 else 'No'}: static safety {safe:.2f} at the {ring} ring."
+    cracks = list(_cracks(found))
+    p_H = value_text(worst["p_Hertz_Pa"], unit="Pa", digits=FEW)
+    why = [*[_film(found)] * bool(cracks), f"The Hertz pressure is {p_H}; ISO 76 allows "
+           f"{limit / 1e9:g} GPa, where the permanent deformation is 0.0001 of the diameter of an element."]
     doubts = [*limits(found), f"Assumed: {'; '.join(found.record['assumptions'])}.",
               *filter(None, [_sentence(bearing_table.estimated_words(found))]),
               *[f"Number of warnings, listed below: {count}." for count in (len(bearing_table.warnings(found)),) if count]]
-    return Answer(QUESTION, headline, "none" if safe >= 1 else "yes", tuple(why), tuple(doubts))
+    tone = "yes" if safe < 1 else cracks[0][1] if cracks else "none"
+    if not cracks:
+        return Answer(QUESTION, f"{static} {_film(found)}", tone, tuple(why), tuple(doubts))
+    headline = " ".join([static, *(text for text, _ in cracks)])
+    return Answer(CRACK_QUESTION, headline, tone, tuple(why), tuple(doubts))
 
 
 def _film(found):
@@ -77,11 +85,12 @@ def _central_film(one):
         one["summary"], "steady", "h_c_m"), "")
 
 
-def _fatigue(found):
+def _cracks(found):
+    """(sentence, tone) of the fatigue of every ring over which a feature passed."""
     for ring, one in found.rings.items():
         if "fatigue" in (one["summary"] or {}):
-            question, answer, *_ = of_fatigue(one["summary"]["fatigue"], beside=others(one["summary"]))
-            yield f"{ring.capitalize()} ring: {question} {answer}"
+            _, headline, tone, *_ = of_fatigue(one["summary"]["fatigue"], beside=others(one["summary"]))
+            yield f"Fatigue crack at the {ring} ring? {headline}", tone
 
 
 def limits(found):

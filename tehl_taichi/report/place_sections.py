@@ -23,14 +23,19 @@ def critical_number(rows, places):
 
 
 def critical(store, words):
-    """(:class:`Section`,) of the position of this store, called `words`; () without a store or maps."""
+    """Each :class:`Section` of the position of this store, called `words`: its maps, and those of the middle of a wide ellipse;
+    () without a store or maps.
+    """
     if not store or not store.finished:
         return ()
-    maps = [figure for figure in map_plots.maps(store) if figure.name in MAPS]
+    found = map_plots.maps(store)
+    maps = [figure for figure in found if figure.name in MAPS]
+    middles = [figure for figure in found if figure.name.removesuffix(map_plots.SHORT) in MAPS and figure not in maps]
     index = fatigue_plots.index(searches(store)[0]) if "fatigue" in store.summary else []
     rows = [[one] for one in maps] if is_turned(store.scene) else [maps]
     parts = [part for part in (figure_block(*index), *(figure_block(*row) for row in rows)) if part]
-    return (Section(f"Critical position: {words}", tuple(parts)),) if parts else ()
+    return tuple(one for one in (Section(f"Critical position: {words}", tuple(parts)),
+                                 Section(f"Middle of the contact: {words}", (figure_block(*middles),))) if one.shown)
 
 
 def scene(store, words):

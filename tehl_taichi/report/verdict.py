@@ -100,8 +100,14 @@ def _judged_indices(searches):
 
 
 def _enumeration(words):
-    """Text such as 'A, B and C'."""
-    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+    """Text such as 'A, B and C'; a note in brackets that all have is there once."""
+    _, bracket, note = words[-1].partition(" (")
+    once = bracket + note
+    if once and all(word.endswith(once) for word in words):
+        words = [word.removesuffix(once) for word in words]
+    else:
+        once = ""
+    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) + once
 
 
 def _judged_layers(searches):

@@ -411,11 +411,8 @@ def test_strips_of_molten_oil_that_move_with_a_surface_come_to_rest():
     """Flank C, mineral-vg320, B+: oil that slips along the slower wall moves by a cell a step, and with it strips of 172 and
     192 deg C, one a cell. They end once steps are shorter; until then the start was refused (1.4 K)."""
     from tehl_taichi.march.passage import march
-    from tehl_taichi.runs.flank.flank_source import flank_source
-    from tehl_taichi.runs.flank.line_contacts import scene_at
 
-    (place,) = flank_source("fzg-c").positions("pinion", None, ["B+"])
-    made = scene_at(scene("gear"), {"oil.name": "mineral-vg320", "time.steady_only": True}, "flank", 1, place)
+    made = flank_position("B+", **{"oil.name": "mineral-vg320"})
     found = next(march(made))
     assert not found.unsettled and found.scalars["mass_error"] < 1e-6
     assert found.scalars["h_c_m"] == pytest.approx(0.0593 * Scales.of(made).h, rel=0.005)  # 0.0591 on 128 columns
@@ -526,3 +523,37 @@ def test_a_film_too_thin_for_a_grid_comes_to_the_next_in_time(taichi_cpu, monkey
     thin = thin.replace(**{"thermal.on": False, "rheology.law": "newtonian"})  # by any law
     found = steady.solve_steady(thin, Scales.of(thin), 1024, 0)
     assert found.report.converged and begun == [4 / 64]
+
+
+def flank_position(point, **changes):
+    """Scene of the steady contact at a position of flank C."""
+    from tehl_taichi.runs.flank.flank_source import flank_source
+    from tehl_taichi.runs.flank.line_contacts import scene_at
+
+    (place,) = flank_source("fzg-c").positions("pinion", None, [point])
+    return scene_at(scene("gear"), {"time.steady_only": True, **changes}, "flank", 1, place)
+
+
+def test_stiff_oil_marches_on_a_coarse_grid_and_goes_on_from_its_temperatures(monkeypatch):
+    """Flank C, B+, mineral-vg320 at 40 deg C: where alternating finds no state, slip grows from cold oil on 32 columns alone,
+    and 64 columns march from those temperatures. 128 columns have the same film, 1.894 um. (From cold oil on every grid 64
+    columns rest at another state, 2.23 um.)"""
+    from tehl_taichi.march import pseudo_transient, steady
+    from tehl_taichi.march.passage import march
+
+    marched, onsets = [], []
+    to_rest, slip_in = steady.march_to_rest, pseudo_transient.PseudoTransient.slip_in
+
+    def watched(solver, heat, P, H0, T=None, finest=True):
+        report = to_rest(solver, heat, P, H0, T, finest)
+        marched.append((solver.levels.nx, T is not None, report.converged))
+        return report
+
+    monkeypatch.setattr(steady, "march_to_rest", watched)
+    monkeypatch.setattr(pseudo_transient.PseudoTransient, "slip_in",
+                        lambda one, onset: (onsets.append((one.levels.nx, onset)), slip_in(one, onset)))
+    found = next(march(flank_position("B+", **{"oil.name": "mineral-vg320", "grid.nx": 64, "temperature": 40.0})))
+    assert marched == [(32, False, True), (64, True, True)] and onsets == [(32, pseudo_transient.ONSETS[0])]
+    assert not found.unsettled and found.scalars["residual"] < 1e-6 and found.scalars["mass_error"] < 1e-6
+    assert found.scalars["h_c_m"] == pytest.approx(1.8886e-6, rel=2e-3)
+    assert found.scalars["film_max_C"] == pytest.approx(330.8, abs=1.0)

@@ -78,3 +78,12 @@ def test_a_warning_of_all_places_names_none():
     other = [(4, 1e9, {"warnings": ["oil 2"], "warning_codes": ["oil"], "warning_data": [{}]}), (5, 1e9, None)]
     assert place_warnings.of([*rows, *other], str) == ["0, 1, 2, 3: oil (likewise, with other numbers, everywhere else)"]
     assert place_warnings.of(rows[:2], str) == ["0, 1: oil"]
+
+
+def test_a_note_that_all_places_have_is_said_once():
+    from tehl_taichi.report.verdict import _enumeration
+
+    note = " (stresses averaged over 10 µm)"
+    assert _enumeration([f"at surface a{note}", f"61 µm below it{note}"]) == f"at surface a and 61 µm below it{note}"
+    assert _enumeration([f"at surface a{note}", "at surface b"]) == f"at surface a{note} and at surface b"
+    assert _enumeration(["A", "B", "C"]) == "A, B and C" and _enumeration([f"A{note}"]) == f"A{note}"

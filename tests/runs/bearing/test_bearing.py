@@ -83,13 +83,25 @@ def test_the_page_names_the_limit_where_a_feature_passed(dry):
     assert sentence.startswith("Fi = 1 is the fatigue limit σ_eF = 400 MPa with κ = 0.3 (findley): example values")
 
 
+@pytest.mark.parametrize("Fi, tone, said", [(1.5, "yes", "Yes: the fatigue limit is exceeded"), (0.5, "no", "No: the index")])
+def test_the_answer_of_a_dent_is_that_of_its_crack(dry, Fi, tone, said):
+    fatigue = {"surface": "a", "Fi_max": Fi, "error": {"Fi_max": 0.1}, "surface_angle_deg": 30.0}
+    ran = Bearing(dry.folder, {**dry.record, "inner": {**dry.record["inner"], "summary": {"fatigue": fatigue}}})
+    answer = bearing_page.answer(ran)
+    assert answer.tone == tone and "fatigue crack" in answer.question
+    assert answer.headline.startswith("Yes: static safety") and f"Fatigue crack at the inner ring? {said}" in answer.headline
+    assert answer.sentences[0].startswith("The central film is ") and bearing_page.answer(dry).tone == "none"
+
+
 def test_the_page_shows_the_contact_that_a_feature_passes(dry, tmp_path):
     """The maps of its store, lying on their side, right below the answer; without a run there are none."""
     assert bearing_page._store(dry) == (None, "inner") and bearing_page.of(dry.folder).front[0].title == "Loads and contacts"
     record = {**dry.record, "outer": {**dry.record["outer"], "store": "elsewhere/made.zarr", "summary": {"fatigue": {}}}}
     made_results.run(tmp_path / "made.zarr", scene("ball-bearing").replace(**{"grid.nx": 32, "grid.ny": 8}), 1)
     store, ring = bearing_page._store(Bearing(tmp_path, record))
-    section, = place_sections.critical(store, f"{ring} ring")
+    section, middle = place_sections.critical(store, f"{ring} ring")
+    assert middle.title == "Middle of the contact: outer ring"
+    assert [figure.name for figure in middle.parts[0].figures] == ["map-pressure-middle", "map-film-middle"]
     assert section.title == "Critical position: outer ring"
     assert [[figure.name for figure in part.figures] for part in section.parts] == [["map-pressure"], ["map-film"]]
     assert section.parts[0].figures[0].layout["yaxis"]["autorange"] == "reversed"

@@ -191,8 +191,9 @@ def test_many_numbers_without_an_error_are_one_short_sentence():
     line, = judge_of_results.unknown_errors(store, summary)
     assert line.startswith("the error of steady n0, steady n1, steady n2, steady n3 and 5 more numbers is not known")
     assert line.data["numbers"] == [f"steady {key}" for key in keys]
-    numbers = {"h_c_m": "h_c", "friction_coefficient": "friction coefficient", "film_max_C": "largest film temperature"}
+    numbers = "h_c_m", "friction_coefficient", "film_max_C", "contact_area_share_max"
     line, = judge_of_results.unknown_errors(store, {"steady": {"unknown": dict.fromkeys(numbers, reason)}})
-    assert line.startswith("the error of steady h_c, steady friction coefficient, steady largest film temperature is not known")
+    assert line.startswith("the error of steady h_c, steady friction coefficient, steady largest film temperature, "
+                           "steady largest area of solid contact is not known")
     assert line.data["numbers"] == [f"steady {key}" for key in numbers]
     assert judge_of_results.few_names(keys[:6]) == "n0, n1, n2, n3, n4, n5"
