@@ -4,7 +4,7 @@ bars.
 
 import numpy as np
 
-from tehl_taichi.runs.traction.traction_rows import axis
+from tehl_taichi.runs.traction.traction_rows import AXES, SPEED, SRR, TEMPERATURE, axis
 from tehl_taichi.values.digits import printed_unit
 from tehl_taichi.view.figures import palette
 
@@ -20,8 +20,21 @@ def drawn(page, found):
     for ax, (label, key, unit) in zip(axes[:, 0], panels):
         _panel(ax, found, label, key, unit)
     _along(axes[-1, 0], found)
-    page.title(figure, f"{found.study.plan.scene.name}: traction")
+    page.title(figure, title(found))
     return figure
+
+
+def title(found):
+    """Scene, oil, and the conditions that all cases of a Traction have in common."""
+    scene, rows = found.study.plan.scene, found.rows
+    fixed = [_condition(key, rows[0]) for key in (SRR, SPEED, TEMPERATURE) if len({row[AXES[key][0]] for row in rows}) == 1]
+    return ", ".join([f"{scene.name}: traction", scene.oil.name or "oil of the scene", *fixed])
+
+
+def _condition(key, row):
+    """Text of a condition, such as "mean speed 1 m/s"."""
+    name, words, unit = AXES[key]
+    return f"{words} {row[name]:g} {unit}".strip()
 
 
 def _panel(ax, found, label, key, unit):

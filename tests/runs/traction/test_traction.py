@@ -66,6 +66,13 @@ def test_the_curves_are_over_slip_or_over_speed(tmp_path, curves):
     assert both.across == "srr" and list(both.curves) == ["1 m/s", "2 m/s"]
 
 
+def test_the_title_has_the_oil_and_what_all_cases_have_in_common(tmp_path, curves):
+    assert traction_figure.title(curves) == "gear: traction, reference-pao, mean speed 8.5 m/s"
+    speeds = traction("gear", [0.1], speed=[1.0, 2.0], changes={"oil.name": "mineral-vg100"}, path=tmp_path / "s.zarr",
+                      workers=1, work=made)
+    assert traction_figure.title(speeds) == "gear: traction, mineral-vg100, slide-roll ratio SRR 0.1, inlet temperature 90 °C"
+
+
 def test_loads_and_pressures_make_curves_too(tmp_path):
     """Several of them are swept, one is that of all curves and of the study's name."""
     pressures = traction("mtm", "0:50%:3", hertz_pressure="0.75GPa,1GPa", path=tmp_path / "p.zarr", workers=1, work=made)
