@@ -254,10 +254,10 @@ class Fatigue:
     inclusion: float = quantity(0.0, "m", "root of the area of the largest inclusion, for the relation murakami; 0: not given",
                                 0.0, 1e-3, usual=3e-5, least=1e-7)
     exponent: float = quantity(0.0, "", "exponent m of the S-N curve: limit_cycles Fi^-m passages to initiation; 0: not "
-                                        "counted", 0.0, 100.0, usual=9.0)
+                                        "counted", 0.0, 100.0, usual=9.0, least=1.0)
     limit_cycles: float = quantity(1e7, "", "number of passages at the fatigue limit, used with an exponent", 1e3, 1e12)
     weibull: float = quantity(0.0, "", "Weibull exponent of the strength, for the stressed volume; 0: not computed", 0.0, 200.0,
-                              usual=24.0)
+                              usual=24.0, least=1.0)
     reference_volume: float = quantity(0.0, "m3", "stressed volume of a specimen that survives the limit in half of the cases; "
                                                   "0: not given, no probability", 0.0, 1.0, usual=1e-7)
     reference_area: float = quantity(0.0, "m2", "stressed surface of that specimen; 0: not given", 0.0, 1.0, usual=1e-4)

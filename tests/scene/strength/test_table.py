@@ -190,3 +190,10 @@ def test_a_store_of_a_relation_that_is_not_installed_names_it():
     data["fatigue"]["relation"] = "mine"
     found = integrity.missing_choice(json.dumps(data))
     assert found.startswith("fatigue.relation = 'mine', which is not installed here; known: mur")
+
+
+@pytest.mark.parametrize("key", ["exponent", "weibull"])
+def test_an_exponent_is_none_or_one_at_least(key):
+    assert getattr(GEAR.replace(**{f"fatigue.{key}": 1.0}).fatigue, key) == 1.0
+    with pytest.raises(SceneError, match=f"fatigue.{key} = 0.5 is out of range; allowed: 0, or at least 1 and"):
+        GEAR.replace(**{f"fatigue.{key}": 0.5})
