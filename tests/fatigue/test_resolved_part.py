@@ -141,7 +141,7 @@ def test_one_reason_is_said_once(monkeypatch):
     told = {"transient": {"unknown": {"p_max_Pa": why["Fi_max"], "h_min_m": "it still changes"}},
             "fatigue": {"unknown": why, "resolved": {"unknown": why, "below": {"unknown": why}}}}
     assert list(result_warnings.unknown_errors(SimpleNamespace(scene=GEAR), told)) == [
-        "the error of passage p_max_Pa, Fi_max, Fi_max of the resolved part, Fi_max below the surface of the resolved part "
+        "the error of passage p_max, Fi_max, Fi_max of the resolved part, Fi_max below the surface of the resolved part "
         "is not known: exit not resolved: a narrow peak; try a grid that is finer along x: --grid 512x64 (4 times the work)"
         ", or --zoom 4 (6 times the work)",
         "the error of passage h_min is not known: it still changes"]
