@@ -67,8 +67,7 @@ class PassagesLeft:
         steps = self._steps()
         if self.began is None and any(steps):  # kernels are loaded
             self.began = self.said, self._done(steps)
-        running = [f"{scene.name} step {done} of {total_steps(scene)}" for (scene, _), done in zip(self.jobs, steps)
-                   if 0 < done < total_steps(scene)]
+        running = [text for (scene, path), done in zip(self.jobs, steps) if (text := _state(scene, path, done))]
         if left := self._left(steps):
             running.append(left)
         if running:
@@ -93,6 +92,20 @@ class PassagesLeft:
             return ""
         seconds = (total - done) * (time.monotonic() - since) / (done - before)
         return f"{about(seconds)} left for {len(steps)} passage{'s' * (len(steps) > 1)}"
+
+
+def _state(scene, path, done):
+    """Text of a run after `done` steps, "" before its first step and after its end."""
+    if done < total_steps(scene):
+        return f"{scene.name} step {done} of {total_steps(scene)}" if done else ""
+    return "" if _ended(path) else f"{scene.name} stresses and error bars"
+
+
+def _ended(path):
+    """Whether the run in a store is finished."""
+    with contextlib.suppress(Error):
+        return Store.open(path).finished
+    return False
 
 
 def _last_step(path):

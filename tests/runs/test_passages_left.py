@@ -24,6 +24,7 @@ def stored(monkeypatch):
     """{path: last step in its store}."""
     steps = {}
     monkeypatch.setattr(passages_left, "_last_step", lambda path: steps.get(path, 0))
+    monkeypatch.setattr(passages_left, "_ended", lambda path: path == "ended")
     return steps
 
 
@@ -46,7 +47,9 @@ def test_the_time_left_follows_the_work_in_all_stores(clock, stored):
     nodes = 65 * 9, 129 * 17
     done = nodes[0] * (total_steps(small) - 2) + nodes[1]
     seconds = 100.0 / done * nodes[1] * (total_steps(large) - 1)
-    assert said[1] == f"large step 1 of {total_steps(large)}; {passages_left.about(seconds)} left for 2 passages"
+    assert said[1] == ("gear stresses and error bars; "
+                       f"large step 1 of {total_steps(large)}; {passages_left.about(seconds)} left for 2 passages")
+    assert passages_left._state(small, "ended", total_steps(small)) == passages_left._state(small, "a", 0) == ""
     left.tick()
     assert len(said) == 2  # not more often than every EVERY seconds
 
@@ -65,6 +68,6 @@ def test_passages_are_announced_with_shorter_ways():
 
 def test_steps_are_read_from_a_store_that_another_process_writes(tmp_path, taichi_cpu):
     scene = tehl.scene("gear").replace(**SMALL, **{"thermal.on": False, "fatigue.on": False, "time.steps": 3})
-    assert passages_left._last_step(tmp_path / "none.zarr") == 0
+    assert passages_left._last_step(tmp_path / "none.zarr") == 0 and not passages_left._ended(tmp_path / "none.zarr")
     tehl.run(scene, tmp_path / "a.zarr")
-    assert passages_left._last_step(tmp_path / "a.zarr") == 3
+    assert passages_left._last_step(tmp_path / "a.zarr") == 3 and passages_left._ended(tmp_path / "a.zarr")
