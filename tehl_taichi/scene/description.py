@@ -331,8 +331,10 @@ class Scene:
 
     @property
     def isothermal(self):
+        """Whether no temperatures are computed. Left to the program, they are but for a Moes pair, and for pure rolling where
+        the heat of the inlet hardly matters by formula."""
         if self.thermal.on == AUTO:
-            return self.operation.srr == 0 or self.contact.moes_M > 0
+            return self.contact.moes_M > 0 or self.operation.srr == 0 and not film_formula.inlet_is_warm(self)
         return not self.thermal.on
 
     @property

@@ -101,10 +101,15 @@ def inlet_heating(scene):
     return 1 / (1 + 0.213 * (1 + 2.23 * abs(o.u_s / o.u_m) ** 0.83) * Q**0.64)
 
 
+def inlet_is_warm(scene):
+    """Whether inlet shear heating reduces the film noticeably."""
+    return 1 - inlet_heating(scene) > NOTICED
+
+
 def heat_words(scene):
     """Text about an omitted energy equation: the reduction of the film by inlet shear heating if it is noticeable, else ""."""
-    less = 1 - inlet_heating(scene)
-    return f"; by formula inlet shear heating alone reduces h_c by {less:.0%}" if less > NOTICED else ""
+    less = f"{1 - inlet_heating(scene):.0%}"
+    return f"; by formula inlet shear heating alone reduces h_c by {less}" if inlet_is_warm(scene) else ""
 
 
 @functools.lru_cache(maxsize=64)
