@@ -204,7 +204,8 @@ class Thermal:
     Thermal(nodes=7)
     """
 
-    on: Union[bool, str] = switch(AUTO, "energy equation; auto: if the surfaces slip", auto=True)
+    on: Union[bool, str] = switch(AUTO, "energy equation; auto: if the surfaces slip, or the heat of the inlet reduces h_c by "
+                                        "more than 1 % by formula", auto=True)
     nodes: int = count(9, "Chebyshev nodes across the film, odd: one at mid-film", 5, 33)
     tolerance: float = quantity(0.05, "K", "largest temperature change in the last round of a step", 1e-6, 10.0)
     rounds: int = count(8, "largest number of pressure-temperature rounds of a step", 1, 50)

@@ -39,7 +39,7 @@ def test_the_temperature_of_a_film_without_slip_counts_in_its_density():
 
 
 def test_a_sweep_through_no_slip_says_which_cases_compute_no_temperatures(tmp_path):
-    words = "sweep", "smooth-line", "--over", "srr=-0.1,0,0.1", "--dry-run", "--out", tmp_path / "s.zarr"
+    words = "sweep", "smooth-line", "--set", "speed=0.5", "--over", "srr=-0.1,0,0.1", "--dry-run", "--out", tmp_path / "s.zarr"
     done = command(*words)
     assert "case 1 computes no temperatures" in done.stdout
     assert "no temperatures" not in command(*words, "--isothermal").stdout

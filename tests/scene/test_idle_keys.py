@@ -199,7 +199,7 @@ SAID = [("smooth-line", {"rheology.tau_0": 1e6}, "rheology.tau_0 has no effect h
         ("gear", {"thermal.on": False, "thermal.nodes": 7}, "thermal.nodes has no effect here: no temperatures"),
         ("gear", {"time.steady_only": True, "height": 1e-6}, "feature.height has no effect here: nothing passes (steady)"),
         ("smooth-line", {"grid.ny": 32}, "grid.ny has no effect here: nothing varies"),
-        ("pitch-line", {"bodies.b.k": 20.0}, "bodies.b.k has no effect here"),
+        ("ball-on-glass", {"bodies.b.k": 20.0}, "bodies.b.k has no effect here"),
         ("gear", {"fatigue.on": False, "kappa": 0.2}, "fatigue.kappa has no effect here: fatigue.on = false"),
         ("gear", {"fatigue.length": 5e-6}, "fatigue.length has no effect here: the grid averages by itself"),
         ("rough", {"fatigue.length": 5e-5}, "fatigue.length has no effect here: the surfaces are rough"),
@@ -238,7 +238,7 @@ def test_a_sweep_of_equal_rows_is_refused(scene, over, key):
 
 
 def test_a_sweep_says_which_cases_are_equal():
-    found = plan(GEAR, {"srr": [0.1, 0.0], "thermal.nodes": [5, 9]})
+    found = plan(GEAR.replace(speed=0.5), {"srr": [0.1, 0.0], "thermal.nodes": [5, 9]})
     assert found.refused() == {} and found.equal() == {3: 2}
     law = plan(SCENES["smooth"], {"rheology.law": ["limiting", "eyring"], "rheology.tau_0": [1e6, 1e8]})
     assert law.refused() == {} and law.equal() == {1: 0}

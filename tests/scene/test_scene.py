@@ -9,10 +9,12 @@ from tehl_taichi.scene import BUILT_INS, SceneError, scene, scene_file, scene_wa
 from tehl_taichi.scene.scales import Scales
 
 
-def test_temperatures_come_with_slip():
-    assert not scene("gear").isothermal and not scene("addendum").isothermal and scene("pitch-line").isothermal
-    assert scene("gear").replace(srr=0.0).isothermal
-    assert not scene("gear").replace(**{"srr": 0.0, "thermal.on": True}).isothermal
+def test_temperatures_come_with_slip_and_with_a_warm_inlet():
+    assert not scene("gear").isothermal and not scene("addendum").isothermal and not scene("pitch-line").isothermal
+    slow = scene("gear").replace(speed=0.5)
+    assert not slow.isothermal and slow.replace(srr=0.0).isothermal
+    assert not slow.replace(**{"srr": 0.0, "thermal.on": True}).isothermal
+    assert scene("pitch-line").replace(**{"thermal.on": False}).isothermal
     assert scene("ridge-on-ball").replace(srr=-1.0).isothermal
     with pytest.raises(SceneError, match="auto"):
         scene("gear").replace(**{"thermal.on": "maybe"})

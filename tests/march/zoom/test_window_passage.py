@@ -30,8 +30,8 @@ def runs():
 
     def of(srr, surface="a", columns=128):
         if (srr, surface, columns) not in kept:
-            scene = LINE.replace(**PART, **{"operation.srr": srr, "feature.surface": surface, "grid.nx": columns})
-            scene = scene.replace(**{"thermal.on": False}) if srr else scene
+            scene = LINE.replace(**PART, **{"operation.srr": srr, "feature.surface": surface, "grid.nx": columns,
+                                              "thermal.on": False})
             kept[srr, surface, columns] = scene, Snapshots(tehl.march(scene))
         return kept[srr, surface, columns]
 
