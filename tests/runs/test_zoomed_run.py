@@ -14,8 +14,8 @@ from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.report import chain_plot
 from tehl_taichi.store.reader import Reader
 
-LINE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid.nx": 64, "thermal.on": False, "fatigue.surfaces": "a",
-                                           "time.x_end": 0.4, "numerics.estimate_error": False})
+LINE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid.nx": 64, "thermal.on": False,
+                                           "fatigue.surfaces": "a", "time.x_end": 0.4, "numerics.estimate_error": False})
 ZOOMED = LINE.replace(**{"zoom.factor": 4})
 
 
