@@ -203,7 +203,8 @@ def zoom(path: Name, factor: int | str = 4, *, threads: int | None = None, progr
     Examples
     --------
     >>> import tehl_taichi as tehl
-    >>> scene = tehl.scene("pitch-line").replace(**{"grid.nx": 64, "feature.length": float("inf"), "fatigue.on": False})
+    >>> scene = tehl.scene("pitch-line").replace(**{"grid.nx": 64, "feature.length": float("inf"), "fatigue.on": False,
+    ...                                            "thermal.on": False})
     >>> run = tehl.zoom(tehl.run(scene, "coarse.zarr").path, 2)
     >>> run.summary["zoom"]["factor"], run["p_max"].value > run.summary["zoom"]["base"]["p_max_Pa"]
     (2, True)

@@ -358,7 +358,7 @@ def test_companions_that_fail_leave_bars_unknown_and_say_why(passage):
     assert set(found.values()) == {None} and "did not converge" in unknown["p_max_Pa"]
     summary = {"steady": {}, "transient": {"error": found, "unknown": unknown}}
     said = list(result_warnings.unknown_errors(SimpleNamespace(scene=short()), summary))
-    assert len(said) == 1 and "passage h_min_m, passage p_max_Pa" in said[0] and refused[0] in said[0]
+    assert len(said) == 1 and "passage h_min, passage p_max" in said[0] and refused[0] in said[0]
 
 
 def test_a_failed_companion_takes_coarser_ones_with_it(passage):
