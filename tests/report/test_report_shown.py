@@ -6,6 +6,8 @@ from browser import CHROMIUM, Browser
 from fake_cases import formula
 
 import tehl_taichi as tehl
+from tehl_taichi.report import plots
+from tehl_taichi.report.document import Answer, Page, Section, figure_block, render
 from tehl_taichi.runs.sweep import sweeping
 from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.scene import scene
@@ -183,6 +185,21 @@ def test_paper_has_the_answer_and_its_figures_on_two_pages(browser, whole):
     browser.ask("Emulation.setEmulatedMedia", media="")
     browser.run("dispatchEvent(new Event('afterprint')); new Promise(done => setTimeout(done, 500))")
     assert browser.run("document.querySelector('.front .plot').offsetHeight") > plot
+
+
+@pytest.mark.parametrize("rows", [1, 3])
+def test_rows_of_figures_share_two_printed_pages_with_the_answer(browser, tmp_path, rows):
+    """As those of an ellipse, one below the other."""
+    drawn, said = [plots.line([0, 1], [0, 1], "p", "#000")], "A sentence about it. " * 8
+    figures = [plots.Figure(f"f{n}", said, drawn, {}, 460) for n in range(rows)]
+    page = Page("a page", "", Answer("Is it?", "Yes.", "yes"), (Section("Maps", tuple(map(figure_block, figures))),))
+    (tmp_path / "a.html").write_text(render(page))
+    browser.open(tmp_path / "a.html", width=WIDE)
+    browser.ask("Emulation.setEmulatedMedia", media="print")
+    browser.run("dispatchEvent(new Event('beforeprint')); new Promise(done => setTimeout(done, 500))")
+    height = browser.run("document.querySelector('section.front').getBoundingClientRect().height")
+    browser.ask("Emulation.setEmulatedMedia", media="")
+    assert (1 / 3 if rows == 1 else 1) * PAGE < height < (1 if rows == 1 else 5 / 4) * PAGE
 
 
 def test_figures_along_a_flank_fit_a_printed_page(browser, others):

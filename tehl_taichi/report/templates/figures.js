@@ -3,6 +3,8 @@
   const PAPER = 660; // px, width of a printed page between its margins
   const LOW = 380, LOWER = 290, LOWEST = 240; // px, heights of the figures of the answer on paper: alone, side by side, and in
                                               // three rows
+  const SHEET = 1200, CAPTION = 75; // px, height that rows share, beside the answer on two printed pages; of a row without its
+                                    // figure
   const touch = matchMedia("(pointer: coarse)").matches; // there a finger on a figure scrolls the page
   const BUTTONS = [["toImage"], ["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d"]]; // none that sends data anywhere
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -70,7 +72,8 @@
       const three = front && row && row.classList.contains("three");
       const width = many === 1 ? PAPER : three ? PAPER / 3 - 11 : PAPER / 2 - 8;
       if (!front) return {width};
-      const height = Math.min(place.offsetHeight, many === 1 ? LOW : many > 6 ? LOWEST : LOWER);
+      const share = SHEET / front.querySelectorAll(".row").length - CAPTION;
+      const height = Math.min(place.offsetHeight, many === 1 ? LOW : many > 6 ? LOWEST : LOWER, share);
       place.dataset.height = place.dataset.height || place.style.height;
       place.style.height = `${height}px`;
       return {width, height, "font.size": three ? 9 : 12};
