@@ -77,13 +77,18 @@ def _profiles(passage, depths, histories, moment_sets, row):
 
 
 def _searched(passage, depths, histories, known):
-    """(f, normals) of all points of histories (depths, x', moments, 6) Pa: one search if all depths have one kappa, else one
-    search per depth. known: see :func:`tehl_taichi.fatigue.findley.search`."""
-    kappas, criterion, strength = passage.strength.kappas(depths), passage.scene.fatigue.criterion, passage.strength
+    """The result of :func:`_of_planes` for the rungs; known: as there."""
+    # the worst point has the largest f only if all depths have one limit
+    worst = passage.worst and len(set(passage.strength.shares(depths))) == 1
+    return _of_planes(passage, depths, histories, known=known, worst=worst)
+
+
+def _of_planes(passage, depths, histories, known=None, worst=False):
+    """(f, normals) of histories (depths, x', moments, 6) Pa, each (depths * x', ...): one search if all depths have one kappa,
+    else one per depth. known, worst: see :func:`tehl_taichi.fatigue.findley.search`."""
+    kappas, criterion = passage.strength.kappas(depths), passage.scene.fatigue.criterion
     each, points = histories.shape[1], histories.reshape(-1, *histories.shape[2:])
     if len(set(kappas)) == 1:
-        # the worst point has the largest f only if all depths have one limit
-        worst = passage.worst and len(set(strength.shares(depths))) == 1
         return findley.search(points, kappas[0], criterion=criterion, known=known, worst=worst)
     parts = [slice(n * each, (n + 1) * each) for n in range(len(kappas))]
     found = [findley.search(points[part], kappa, criterion=criterion, known=known and [values[part] for values in known])
@@ -100,10 +105,10 @@ def _profile(passage, depths, histories, f, row):
     """The DepthProfile of histories (depths, x', moments, 6) Pa whose values f (depths, x') Pa are known."""
     logs, y, strength = np.log(depths), float(passage.reader.y[row]), passage.strength
 
-    def search(stress, depth):
-        local = strength.at(depth)
-        found, normals = findley.search(stress, local.kappa, criterion=local.criterion)
-        return found * local.share, found, normals
+    def search(stress, depths):
+        f, normals = _of_planes(passage, depths, stress)
+        found, normals = f.reshape(stress.shape[:2]), normals.reshape(*stress.shape[:2], 3)
+        return found * np.array(strength.shares(depths))[:, None], found, normals
 
     compared = f * np.array(strength.shares(depths))[:, None]
     depth, point, *rest = _refined(strength, logs, histories, compared, search)
@@ -118,9 +123,9 @@ def _mises(passage, logs, histories, y):
     shares = np.array([share(float(np.exp(log))) for log in logs])[:, None]
     values = np.stack([von_mises.largest(of_depth) for of_depth in histories]) * shares
 
-    def search(stress, depth):
-        found = von_mises.largest(stress)
-        return found * share(depth), found, found
+    def search(stress, depths):
+        found = np.stack([von_mises.largest(of_depth) for of_depth in stress])
+        return found * np.array([share(depth) for depth in depths])[:, None], found, found
 
     depth, point, value, *_ = _refined(passage.strength, logs, histories, values, search)
     return von_mises.VonMisesPeak(value, depth, float(passage.x[point]), y)
@@ -129,25 +134,32 @@ def _mises(passage, logs, histories, y):
 def _refined(strength, logs, histories, values, search):
     """Refine the depth of the largest of `values` (depths, x') between the rungs, by halving a step in log depth.
 
-    search(stress, depth) returns for histories (points, moments, 6) Pa at a depth (m): the numbers to compare, the values and
-    further results, each (points, ...). Returns (depth, number of the point, value, its history, its further result).
+    search(stress, depths) returns for histories (depths, points, moments, 6) Pa at some depths (m): the numbers to compare, the
+    values and further results, each (depths, points, ...). Returns (depth, number of the point, value, its history, its further
+    result).
     """
     best = int(np.argmax(values.max(axis=1)))
     follow = np.flatnonzero(values[best] >= CLOSE * values[best].max())
 
-    def at(log):
-        stress = _between(strength, logs, histories[:, follow], log)
-        compared, found, more = search(stress, float(np.exp(log)))
-        top = int(np.argmax(compared))
-        return float(compared[top]), log, int(follow[top]), float(found[top]), stress[top], more[top]
+    def at(*some):
+        """The worst point at each of some log depths, searched at once."""
+        stress = np.stack([_between(strength, logs, histories[:, follow], log) for log in some])
+        found = zip(*search(stress, [float(np.exp(log)) for log in some]), stress)
+        return [_top(log, follow, *one) for log, one in zip(some, found)]
 
-    top, step = at(logs[best]), logs[1] - logs[0]
+    (top,), step = at(logs[best]), logs[1] - logs[0]
     for _ in range(HALVINGS):
         step *= 0.5
-        sides = [at(log) for log in (top[1] - step, top[1] + step) if logs[0] <= log <= logs[-1]]
+        sides = at(*(log for log in (top[1] - step, top[1] + step) if logs[0] <= log <= logs[-1]))
         top = max([top, *sides], key=lambda found: found[0])
     _, log, point, value, stress, more = top
     return float(np.exp(log)), point, value, stress, more
+
+
+def _top(log, follow, compared, found, more, stress):
+    """(number to compare, log depth, number of the point, value, history, further result) of the worst of `follow`."""
+    top = int(np.argmax(compared))
+    return float(compared[top]), log, int(follow[top]), float(found[top]), stress[top], more[top]
 
 
 def _between(strength, logs, histories, log):

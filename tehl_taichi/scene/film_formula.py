@@ -95,10 +95,16 @@ def inlet_heating(scene):
 
     After Gupta et al. 1992, from memory and without their factor of the load: films under high loads agree better without it.
     """
-    oil, o = scene.oil, scene.operation
-    below, above = (ln_eta(oil, 0.0, o.temperature + part) for part in (-0.5, 0.5))
-    Q = max(below - above, 0.0) * math.exp(ln_eta(oil, 0.0, o.temperature)) * o.u_m**2 / conductivity(oil, 0.0)
-    return 1 / (1 + 0.213 * (1 + 2.23 * abs(o.u_s / o.u_m) ** 0.83) * Q**0.64)
+    o = scene.operation
+    return _inlet_factor(scene.oil, o.temperature, o.u_m, abs(o.u_s / o.u_m))
+
+
+@functools.lru_cache(maxsize=64)
+def _inlet_factor(oil, Gamma, u_m, S):
+    """The thermal factor of :func:`inlet_heating` at the inlet temperature Gamma (deg C)."""
+    below, above = (ln_eta(oil, 0.0, Gamma + part) for part in (-0.5, 0.5))
+    Q = max(below - above, 0.0) * math.exp(ln_eta(oil, 0.0, Gamma)) * u_m**2 / conductivity(oil, 0.0)
+    return 1 / (1 + 0.213 * (1 + 2.23 * S**0.83) * Q**0.64)
 
 
 def inlet_is_warm(scene):
