@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.march.step_output import Scalar, always, entries, thermal
-from tehl_taichi.values.summary_units import unit_of
+from tehl_taichi.values.summary_units import without_unit
 
 OVER = {"start": "", "maximum": ", largest", "minimum": ", smallest", "mean": ", mean"}
 SPOKEN = {"steady": "steady", "transient": "passage"}  # parts whose numbers have equal names
@@ -134,4 +134,4 @@ def short_name(key):
     if entry and entry.series:
         what, _, over = (entry.label.removeprefix(SPOKEN[entry.part]).strip() or entry.name).partition(", ")
         return f"{over} {what}".strip()
-    return key.removesuffix(f"_{key.rpartition('_')[2]}") if unit_of(key) else key
+    return without_unit(key)

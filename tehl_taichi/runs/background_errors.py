@@ -24,7 +24,7 @@ WATCH = 0.5  # s between looks at whether the run is still there
 TELL = 1.0  # s between two words that the run waits for it
 # nodes times steps from which on a run is long: the process loads its kernels first, some 4 s. A coarse case of a sweep in a
 # warm process takes 5.0 s with a process beside it, and 3.8 s with coarse-grid runs after it, by existing kernels
-LONG, HEAVIER = 5e6, 5.0  # with temperatures a step takes so many times as long
+LONG = 5e6
 
 
 def idle_cores():
@@ -34,7 +34,7 @@ def idle_cores():
 
 def takes_long(scene):
     """Whether a run takes long."""
-    return coarse_runs.work(scene) * (1.0 if scene.isothermal else HEAVIER) >= LONG
+    return coarse_runs.heavy_work(scene) >= LONG
 
 
 @contextlib.contextmanager

@@ -12,7 +12,7 @@ from tehl_taichi.values.coded_text import grid_option
 
 EVERY = 15.0  # s between two lines about passages that run
 SURE = 0.01  # of the work that has to be done before its pace gives a remaining time
-LONG, HEAVIER = 1e7, 5.0  # nodes times steps of passages that take minutes; temperatures take so many times as long
+LONG = 1e7  # work of passages that take minutes, as of coarse_runs.heavy_work
 
 
 def announced(scenes):
@@ -23,14 +23,9 @@ def announced(scenes):
     counts = sorted({total_steps(scene) for scene in passing})
     steps = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
     line = f"{len(passing)} passage{'s' * (len(passing) > 1)} of {steps} steps on {_cells(passing[0])} cells"
-    if sum(map(_weight, passing)) < LONG:
+    if sum(map(coarse_runs.heavy_work, passing)) < LONG:
         return [line]
     return [f"{line}; the remaining time follows from the first steps. Shorter: {'; '.join(_shorter(passing))}"]
-
-
-def _weight(scene):
-    """Nodes times steps, of a scene with temperatures HEAVIER."""
-    return coarse_runs.work(scene) * (1.0 if scene.isothermal else HEAVIER)
 
 
 def _cells(scene):
@@ -48,7 +43,7 @@ def _shorter(scenes):
     yield "--steady, without passages"
     with contextlib.suppress(Error):
         coarse = [one.replace(**{"grid.nx": one.grid.nx // 2, "grid.ny": one.grid.ny // 2}) for one in scenes]
-        share = sum(map(_weight, coarse)) / sum(map(_weight, scenes))
+        share = sum(map(coarse_runs.heavy_work, coarse)) / sum(map(coarse_runs.heavy_work, scenes))
         yield f"{_grid(scenes[0], 2)}, {share:.2g} times the work, larger errors"
 
 

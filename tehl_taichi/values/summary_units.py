@@ -8,6 +8,12 @@ def unit_of(name):
     return UNITS.get(name.rpartition("_")[2], "") if "_" in name else ""
 
 
+def without_unit(name):
+    """A name without the unit at its end: h_min for h_min_m."""
+    head = name.rpartition("_")[0]
+    return head if head and unit_of(name) else name
+
+
 # sizes below which a number is nearly nothing, so that a change in per cent of it says nothing: a film of a few molecules of
 # oil, a pressure that moves nothing in a contact of steel, a thousandth of a coefficient, share or index
 NOTHING = {"m": 5e-9, "Pa": 1e6, "": 1e-3}

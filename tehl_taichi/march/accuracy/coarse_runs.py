@@ -42,6 +42,7 @@ TOP, REST = 1.0, 0.5  # GridReading.spread of the 99th percentile at the surface
 RUN_IN = "surface_change_max_m", "height_after_m", "plastic_strain_max", "residual_min_Pa", "residual_max_Pa"
 SHALLOW = Reason("it is largest at the smallest searched depth (half a cell), which no grid resolves", "shallow")
 SHALLOWEST = 1.5  # of that depth: up to the next one that is searched
+HEAVIER = 5.0  # with temperatures a step takes so many times as long
 WORTH = 3e5  # nodes times steps of a run: below, it is a try, on a grid whose coarse-grid runs say little
 
 
@@ -293,6 +294,11 @@ def has_coarse_runs(scene):
 def work(scene):
     """Work of a run: nodes times steps."""
     return nodes(scene) * total_steps(scene)
+
+
+def heavy_work(scene):
+    """Work of a run in that of steps without temperatures."""
+    return work(scene) * (1.0 if scene.isothermal else HEAVIER)
 
 
 def nodes(scene):

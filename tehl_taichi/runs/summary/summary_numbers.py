@@ -4,7 +4,7 @@ from tehl_taichi.errors import UnknownName
 from tehl_taichi.values.checks import known_names, nearest
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.estimate import Quantity
-from tehl_taichi.values.summary_units import unit_of
+from tehl_taichi.values.summary_units import unit_of, without_unit
 
 FIRST = ("transient", "steady", "fatigue")  # parts whose numbers are meant by a name without its part, in this order
 BARS = ("error", "unknown", "unknown_codes", "error_parts")  # of a part: not numbers themselves
@@ -49,18 +49,12 @@ def _fitting(known, name):
 def _names(full):
     """All short names of a full one."""
     part, _, key = full.rpartition(".")
-    keys = {key, _bare(key)}
+    keys = {key, without_unit(key)}
     return keys | {f"{part}.{one}" for one in keys}
 
 
-def _bare(key):
-    """A key without its unit."""
-    head, _, end = key.rpartition("_")
-    return head if head and unit_of(key) else key
-
-
 def _short(known):
-    return {_bare(full.rpartition(".")[2]) for full in known}
+    return {without_unit(full.rpartition(".")[2]) for full in known}
 
 
 def _order(full):
