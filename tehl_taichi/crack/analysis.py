@@ -168,9 +168,9 @@ def _tension_depth(points, tension):
 def _checked(plane, path, options, E_star):
     """Errors of the stress intensities at the last length, number of moments that did not converge, and warnings."""
     finer = load_crack(plane, path.points, options, E_star, 2 * options.elements).K
-    error = _element_error(path.last.K, finer)
-    return {"error_at_last_length": error, "unsettled": sum(step["unsettled"] for step in path.steps),
-            "doubts": list(_doubts(path, options, max(error.values()), max(np.abs(finer).max(), 1e-30)))}
+    error, missed = _element_error(path.last.K, finer), sum(step["unsettled"] for step in path.steps)
+    return {"error_at_last_length": error, "unsettled": missed,
+            "doubts": list(_doubts(path, options, missed, max(error.values()), max(np.abs(finer).max(), 1e-30)))}
 
 
 def _element_error(K, finer):
@@ -178,9 +178,9 @@ def _element_error(K, finer):
     return {"K_I_max": float(abs(K[0].max() - finer[0].max())), "K_II_range": float(abs(np.ptp(K[1]) - np.ptp(finer[1])))}
 
 
-def _doubts(path, options, error, largest):
-    """Generator of warnings about a path; error, largest: of the stress intensities at the last length."""
-    missed = sum(step["unsettled"] for step in path.steps)
+def _doubts(path, options, missed, error, largest):
+    """Generator of warnings about a path; missed: number of moments that did not converge; error, largest: of the stress
+    intensities at the last length."""
     if error > CLEAR * largest:
         yield f"twice as many elements change the stress intensities by {error / largest:.0%}"
     if missed > CLEAR * len(path.steps) * path.last.K.shape[1]:

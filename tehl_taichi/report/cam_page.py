@@ -38,8 +38,7 @@ def _places(cam):
 
 def _critical(cam):
     """(store of the critical angle or None, text of the angle)."""
-    number = place_sections.critical_number(cam.rows, _places(cam))
-    return (None, "") if number is None else (cam.store_of(number), _words(cam.rows[number][0]))
+    return place_sections.critical_place(cam, _places(cam), _words)
 
 
 def limits(cam):

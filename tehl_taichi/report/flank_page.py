@@ -45,8 +45,7 @@ def of(folder, out=None):
 
 def _critical(flank):
     """(store of the critical position or None, text of the position)."""
-    number = place_sections.critical_number(flank.rows, judged_places(flank))
-    return (None, "") if number is None else (flank.store_of(number), _where(flank.rows[number][0]))
+    return place_sections.critical_place(flank, judged_places(flank), _where)
 
 
 QUESTION = "Where along the flank does a fatigue crack start?"

@@ -22,6 +22,13 @@ def critical_number(rows, places):
     return min(films, key=lambda n: films[n], default=None)
 
 
+def critical_place(contacts, places, words):
+    """(store of the critical position of a flank or a cam, text of the position); (None, "") without results. places: as for
+    :func:`critical_number`; words: function of a position that gives its text."""
+    number = critical_number(contacts.rows, places)
+    return (None, "") if number is None else (contacts.store_of(number), words(contacts.rows[number][0]))
+
+
 def critical(store, words):
     """Each :class:`Section` of the position of this store, called `words`: its maps, and those of the middle of a wide ellipse;
     () without a store or maps.
