@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.fatigue import findley, von_mises
-from tehl_taichi.fatigue.stress.averaging import has_window
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import WorstPoint
 from tehl_taichi.values.interpolation import lagrange
@@ -37,8 +36,8 @@ def ladder(passage):
 
     With a fine window: the depths of the run without it, and shallower ones down to half a fine cell.
     """
-    factor = passage.reader.window.factor if has_window(passage.reader) else 1
-    first, last = SHALLOWEST * passage.dx * factor, DEEPEST * passage.a
+    factor = round(passage.run_dx / passage.dx)
+    first, last = SHALLOWEST * passage.run_dx, DEEPEST * passage.a
     count = max(5, int(np.ceil(np.log(last / first) / np.log(RATIO))) + 1)
     depths = np.geomspace(first, last, count)
     more = int(np.log(factor) / np.log(depths[1] / depths[0]) + 1e-9)

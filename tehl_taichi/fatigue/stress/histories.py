@@ -11,6 +11,7 @@ import functools
 import numpy as np
 
 from tehl_taichi.engine.fftw import SINGLE
+from tehl_taichi.fatigue.stress.averaging import has_window
 from tehl_taichi.fatigue.stress.half_space import COMPONENTS, HalfSpaceStress
 from tehl_taichi.fatigue.stress.thermal_depth import ThermalBelow
 from tehl_taichi.fatigue.stress.workers import pool
@@ -110,19 +111,24 @@ class StressHistories:
         return tuple(feature.x + (carrier.pace - self.surface.pace) * np.clip(at, *self.path) for at in ends)
 
     def _lead_in(self, first):
-        """Centres (m), one cell apart, before the first stored one, beginning where every point is unloaded; none if the first
-        stored one is inside the contact."""
+        """Centres (m), one cell of the run apart, before the first stored one, beginning where every point is unloaded; none if
+        the first stored one is inside the contact."""
         if self.path[0] > -self.a:
             return np.zeros(0)
-        steps = int(np.ceil((first + self.x[-1] + LOADED * self.a) / self.dx))
-        return first - np.arange(max(steps, 0), 0, -1) * self.dx
+        steps = int(np.ceil((first + self.x[-1] + LOADED * self.a) / self.run_dx))
+        return first - np.arange(max(steps, 0), 0, -1) * self.run_dx
 
     def _lead_out(self, last):
         """As :meth:`_lead_in`, after the last stored centre."""
         if self.path[1] < self.a:
             return np.zeros(0)
-        steps = int(np.ceil((LOADED * self.a - last - self.x[0]) / self.dx))
-        return last + np.arange(1, max(steps, 0) + 1) * self.dx
+        steps = int(np.ceil((LOADED * self.a - last - self.x[0]) / self.run_dx))
+        return last + np.arange(1, max(steps, 0) + 1) * self.run_dx
+
+    @property
+    def run_dx(self):
+        """Cell of the run along x, m; the cell `dx` of a reader with a fine window is smaller."""
+        return self.dx * (self.reader.window.factor if has_window(self.reader) else 1)
 
     def _widen(self):
         """Set `grid_x`, the grid with unloaded columns (`pad`) on both sides, which no material point leaves."""

@@ -99,12 +99,22 @@ def histories(scene, reader, surface):
     return passage, top, histories_of(passage, [4e-6, 2e-5, 1e-4], [(row, False)])[0]
 
 
+def pairs(scene, reader, whole, surface):
+    """The histories of `reader` and those of `whole` (which has no window) at their common moments: [(surface), (depths)]; all
+    moments but the first and the last, where the points are unloaded."""
+    (passage, *found), (wider, *there) = (histories(scene, one, surface) for one in (reader, whole))
+    away = np.abs(wider.centres - passage.centres[:, None])
+    own = np.flatnonzero(away.min(axis=1) < 1e-6 * passage.dx)
+    assert own.size >= passage.centres.size - 2
+    same = away.argmin(axis=1)[own]
+    return [(one[..., own, :], whole_one[..., same, :]) for one, whole_one in zip(found, there)]
+
+
 @pytest.mark.parametrize("scene", [GEAR, LINE, OFF_AXIS], ids=["half domain", "line", "off the axis"])
 @pytest.mark.parametrize("surface", ["a", "b"])
 def test_stresses_are_those_of_the_fine_grid_everywhere(scene, surface):
     reader = zoomed(scene)
-    _, top, deep = histories(scene, reader, surface)
-    _, whole_top, whole_deep = histories(scene, Whole(reader), surface)
+    (top, whole_top), (deep, whole_deep) = pairs(scene, reader, Whole(reader), surface)
     assert np.abs(top - whole_top).max() < 0.012 * np.abs(whole_top).max()
     assert np.abs(deep - whole_deep).max() < 0.012 * np.abs(whole_deep).max()
     run = histories(scene, reader.base, surface)[2]  # without its window, at the same depths
@@ -114,8 +124,8 @@ def test_stresses_are_those_of_the_fine_grid_everywhere(scene, surface):
 def test_stresses_of_averaged_loads_are_those_of_the_fine_grid():
     scene, length = GEAR.replace(**{"grid.nx": 128, "fatigue.thermal_stress": False}), 4e-5
     reader = zoomed(scene, 2)
-    _, top, deep = histories(scene, averaged_reader(reader, length), "a")
-    _, whole_top, whole_deep = histories(scene, AveragedReader(Whole(reader), length), "a")
+    whole = AveragedReader(Whole(reader), length)
+    (top, whole_top), (deep, whole_deep) = pairs(scene, averaged_reader(reader, length), whole, "a")
     assert np.abs(top - whole_top).max() < 0.012 * np.abs(whole_top).max()
     assert np.abs(deep - whole_deep).max() < 0.012 * np.abs(whole_deep).max()
 
@@ -128,12 +138,20 @@ def test_the_heat_of_a_window_is_that_of_the_fine_grid():
         for values in reader.zoomed.fields[field]:
             values *= 0
     for surface in "ab":
-        found, there = (histories(scene, one, surface) for one in (reader, Whole(reader)))
         without = scene.replace(**{"fatigue.thermal_stress": False})
-        cold, there_cold = (histories(without, one, surface) for one in (reader, Whole(reader)))
-        for n in (1, 2):
-            heat, whole = found[n] - cold[n], there[n] - there_cold[n]
+        warm, cold = (pairs(one, reader, Whole(reader), surface) for one in (scene, without))
+        for n in (0, 1):
+            heat, whole = (one - other for one, other in zip(warm[n], cold[n]))
             assert np.abs(heat - whole).max() < 0.015 * np.abs(whole).max(), (surface, n)
+
+
+def test_moments_before_and_after_the_steps_are_those_of_the_run():
+    reader = zoomed(GEAR, 4)
+    passage, run = (histories(GEAR, one, "b")[0] for one in (reader, reader.base))
+    steps = len(reader)
+    for side in (slice(None, passage.centres.size - steps), slice(passage.centres.size, None)):
+        assert np.allclose(np.diff(passage.centres[side]), passage.run_dx)
+    assert abs(passage.centres.size - run.centres.size) <= 2
 
 
 @pytest.mark.parametrize("factor", [2, 4, 8])
