@@ -1,6 +1,7 @@
 """Cores available to this process, and Taichi's threads on separate cores."""
 
 import contextlib
+import functools
 import math
 import os
 from pathlib import Path
@@ -26,7 +27,12 @@ def allowed():
 
 def quota(groups=None, own=None):
     """Number of cores granted by the control groups of this process; infinite without a limit, or if they cannot be read."""
-    return min(map(_granted, _groups(groups or GROUPS, own or OWN)), default=math.inf)
+    return _quota(groups or GROUPS, own or OWN)
+
+
+@functools.lru_cache(maxsize=1)  # each team of workers asks, and reading the files takes 0.3 ms
+def _quota(groups, own):
+    return min(map(_granted, _groups(groups, own)), default=math.inf)
 
 
 def _groups(groups, own):

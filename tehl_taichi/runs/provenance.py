@@ -1,5 +1,6 @@
 """Provenance of the numbers: code, libraries, machine, command and time."""
 
+import functools
 import importlib.metadata
 import json
 import platform
@@ -25,11 +26,13 @@ def provenance(scene):
             "precision": precision.of(scene), "runtime": json.dumps(runtime.ensure())}
 
 
+@functools.cache
 def versions():
     """{name: version} of Python and of the libraries that affect numbers (taichi: see :func:`runtime.start`)."""
     return {"python": platform.python_version(), **{name: importlib.metadata.version(name) for name in LIBRARIES}}
 
 
+@functools.cache
 def machine():
     """Operating system, architecture and, if known, the processor."""
     return ", ".join(part for part in (platform.platform(), _processor()) if part)

@@ -1,6 +1,7 @@
 """The whole scene: its parts, the checks between them, changes, and conversion to and from plain dictionaries."""
 
 import dataclasses
+import functools
 import math
 from dataclasses import dataclass, field
 from typing import Any
@@ -396,6 +397,10 @@ class Scene:
 
     def warnings(self):
         """Warnings about this scene, one sentence each (see :mod:`tehl_taichi.scene.scene_warnings`)."""
+        return list(self._warnings)
+
+    @functools.cached_property
+    def _warnings(self):
         return scene_warnings.warnings(self)
 
     @property
@@ -458,6 +463,7 @@ class Scene:
     def with_user_keys(self, keys):
         """This scene, with a record of the keys that the user gave (see :mod:`tehl_taichi.scene.idle_keys`)."""
         object.__setattr__(self, "user_keys", frozenset(keys))
+        self.__dict__.pop("_warnings", None)  # they depend on these keys
         return self
 
     def to_dict(self):

@@ -68,7 +68,7 @@ def whole_passage(scene):
 
 def most_steps(scene):
     """Largest number of time steps of a run of this scene, also if a cut passage is extended to its end."""
-    return total_steps(whole_passage(scene))
+    return total_steps(whole_passage(scene)) if scene.transient else 0
 
 
 def remaining_scene(scene, done, more=None):

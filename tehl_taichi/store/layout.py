@@ -19,19 +19,14 @@ OWN = {"step": ("i8", "1", "step number", -1, ""), "time": ("f8", "s", "time sin
 
 
 def lay_out(folder, capacity, scene, snapshot):
-    """Create the arrays for `capacity` entries: coordinates, every output of the scene, series of the snapshot."""
-    _coordinates(folder, snapshot)
-    _fields(folder, capacity, scene, snapshot)
-    _series(folder, capacity, scene)
-
-
-def metadata(path, name="*"):
-    """Metadata of every array of the group, or of one, by name."""
-    return {file.parent.name: files.json_of(file) for file in sorted(path.glob(f"{name}/{ROOT}"))}
+    """Create the arrays for `capacity` entries: coordinates, every output of the scene, series of the snapshot. Returns the
+    metadata of each, {name: metadata}."""
+    return {**_coordinates(folder, snapshot), **_fields(folder, capacity, scene, snapshot), **_series(folder, capacity, scene)}
 
 
 def publish(path, attrs, arrays):
-    """Replace the group's metadata: attributes, and every array with its time axis cut at attrs['steps']. Raises OSError."""
+    """Replace the group's metadata: attributes, and those of the `arrays` {name: metadata}, whose time axes are cut at
+    attrs['steps']. Raises OSError."""
     for array in arrays.values():
         if array["dimension_names"][0] == "time":
             array["shape"][0] = attrs["steps"]
@@ -41,52 +36,64 @@ def publish(path, attrs, arrays):
 
 
 def array(folder, name, shape, chunk, dtype, dims, units, long_name, fill, between="/", **attrs):
-    """Create an array of the group in `folder`; between: separator of the numbers of a chunk in its file name."""
+    """Create an array of the group in `folder`; between: separator of the numbers of a chunk in its file name. Returns {name:
+    its metadata}."""
     attributes = json.dumps({"units": units, "long_name": long_name, **attrs})
     (folder / name).mkdir()
-    files.write(folder / name / ROOT, _described(tuple(shape), tuple(chunk), dtype, tuple(dims), fill, between, attributes))
+    content, parsed = _described(tuple(shape), tuple(chunk), dtype, tuple(dims), fill, between, attributes)
+    files.write(folder / name / ROOT, content)
+    return {name: {**parsed, "shape": list(shape)}}
 
 
 def whole(folder, name, values, dims, units, long_name, fill=0.0, **attrs):
-    """Create an array of one chunk with its values, f4 or else f8."""
+    """Create an array of one chunk with its values, f4 or else f8. Returns {name: its metadata}."""
     kind = "f4" if np.asarray(values).dtype == np.float32 else "f8"
     values = np.asarray(values, kind)
-    array(folder, name, values.shape, values.shape, kind, dims, units, long_name, fill, **attrs)
+    described = array(folder, name, values.shape, values.shape, kind, dims, units, long_name, fill, **attrs)
     chunk = folder / name / "/".join(["c", *("0" * values.ndim)])
     chunk.parent.mkdir(parents=True)
     files.write(chunk, chunks.compressed(values, "<" + kind))
+    return described
 
 
 @functools.lru_cache(maxsize=1000)
 def _described(shape, chunk, dtype, dims, fill, between, attributes):
-    """Content of the metadata file of an array. Kept: zarr takes 2 ms for it, and the stores of a study have the same ones."""
+    """(content, what it says) of the metadata file of an array. Kept: zarr takes 2 ms for it, and the stores of a study have
+    the same ones."""
     made: dict[str, Any] = {}
     zarr.create_array(made, shape=shape, chunks=chunk, dtype=dtype, dimension_names=dims, fill_value=fill,
                       compressors=chunks.codecs(), chunk_key_encoding={"name": "default", "separator": between},
                       attributes=json.loads(attributes))
-    return made[ROOT].to_bytes()
+    content = made[ROOT].to_bytes()
+    return content, json.loads(content)
 
 
 def _coordinates(folder, snapshot):
+    made = {}
     for name, values, text in (("x", snapshot.x, "along rolling"), ("y", snapshot.y, "across")):
-        whole(folder, name, values, [name], "m", text)
+        made |= whole(folder, name, values, [name], "m", text)
     if "temperature" in snapshot.fields:
         from tehl_taichi.heat.chebyshev import chebyshev
 
         zeta = chebyshev(snapshot.fields["temperature"].shape[2])[0]
-        whole(folder, "zeta", zeta, ["zeta"], "1", "z/h from surface a to surface b")
+        made |= whole(folder, "zeta", zeta, ["zeta"], "1", "z/h from surface a to surface b")
+    return made
 
 
 def _fields(folder, capacity, scene, snapshot):
+    made = {}
     for name, field in fields_of(scene).items():
         shape, fill = snapshot.fields[name].shape, 0 if field.dtype == "u1" else math.nan
         # files without folders: three a field would be made at every step
-        array(folder, name, (capacity, *shape), (1, *shape), field.dtype, ["time", *field.dims], field.unit, field.says, fill,
-              between=".")
+        made |= array(folder, name, (capacity, *shape), (1, *shape), field.dtype, ["time", *field.dims], field.unit,
+                      field.says, fill, between=".")
+    return made
 
 
 def _series(folder, capacity, scene):
+    made = {}
     numbers = {name: ("f8", scalar.unit, scalar.says, math.nan, scalar.over) for name, scalar in scalars_of(scene).items()}
     for name, (dtype, units, text, fill, over) in {**numbers, **OWN}.items():
         folded = {"cell_methods": f"time: {over}"} if over and scene.output.every > 1 else {}
-        array(folder, name, (capacity,), (capacity,), dtype, ["time"], units, text, fill, **folded)
+        made |= array(folder, name, (capacity,), (capacity,), dtype, ["time"], units, text, fill, **folded)
+    return made

@@ -61,13 +61,13 @@ class Store(LockedFolder, Reader):
     @classmethod
     def _create(cls, place, scene, snapshot, capacity, attrs):
         """A store without entries, which readers do not see yet."""
-        layout.lay_out(place.folder, capacity, scene, snapshot)
-        stored_maps.write(place.folder, scene)
+        arrays = {**layout.lay_out(place.folder, capacity, scene, snapshot), **stored_maps.write(place.folder, scene)}
         (place.folder / CHECKPOINTS).mkdir()
         attrs = {"Conventions": "CF-1.10", "format": FORMAT, "version": __version__, "scene": json.dumps(scene.to_dict()),
                  "scene_toml": scene_file.dumps(scene), **attrs, "outputs": json.dumps(names()), "steps": 0, "finished": False}
-        layout.publish(place.folder, attrs, layout.metadata(place.folder))
+        layout.publish(place.folder, attrs, dict(sorted(arrays.items())))
         store = cls(place.folder, place.lock)
+        store.x, store.y = (np.array(values, float) for values in (snapshot.x, snapshot.y))  # reading them takes 2 ms
         store.series = {name: np.full(capacity, -1) if name == "step" else np.full(capacity, np.nan) for name in store.names}
         for name in store.series:
             (place.folder / name / "c").mkdir()
@@ -167,8 +167,7 @@ class Store(LockedFolder, Reader):
             for name, (values, dims, units, text) in (maps or {}).items():
                 if os.path.lexists(self.path / name):
                     remove_whole(self.path / name)
-                layout.whole(self.path, name, values, dims, units, text, math.nan)
-                self.metadata |= layout.metadata(self.path, name)
+                self.metadata |= layout.whole(self.path, name, values, dims, units, text, math.nan)
             self._commit(summary=json.dumps(plain(summary)), results=json.dumps(list(maps or {})), finished=True,
                          **texts(summary.get("warnings", self.warnings)))
 

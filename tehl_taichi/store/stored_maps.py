@@ -10,12 +10,15 @@ from tehl_taichi.store import chunks, layout
 
 
 def write(folder, scene):
-    """Store the heights of the scene's maps as they were read, each once, under the hash that its feature names."""
+    """Store the heights of the scene's maps as they were read, each once, under the hash that its feature names. Returns the
+    metadata of their arrays, {name: metadata}."""
+    made = {}
     for feature in scene.features:
         if feature.kind.measured and not (folder / (name := _name(feature.sha256))).exists():
-            layout.whole(folder, name, np.asarray(feature.heights, float), [f"{name}_row", f"{name}_column"], feature.unit,
-                         "heights as in the file, neither turned nor levelled", sha256=feature.sha256,
-                         pixel_m=list(feature.file_steps), file=feature.file)
+            made |= layout.whole(folder, name, np.asarray(feature.heights, float), [f"{name}_row", f"{name}_column"],
+                                 feature.unit, "heights as in the file, neither turned nor levelled", sha256=feature.sha256,
+                                 pixel_m=list(feature.file_steps), file=feature.file)
+    return made
 
 
 def scene_of(path, data):

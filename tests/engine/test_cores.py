@@ -33,6 +33,13 @@ def test_quota_of_control_groups(tmp_path, line, files, granted):
     assert cores.quota(*groups(tmp_path, line, **files)) == granted
 
 
+def test_control_groups_are_read_once(tmp_path, monkeypatch):
+    where, read = groups(tmp_path, "0::/\n", cpu_max="150000 100000\n"), []
+    own = cores._granted
+    monkeypatch.setattr(cores, "_granted", lambda folder: read.append(folder) or own(folder))
+    assert [cores.quota(*where) for _ in range(3)] == [1.5] * 3 and len(read) == 1
+
+
 def test_half_a_core_is_one_thread(tmp_path):
     assert cores.available(*groups(tmp_path, "0::/\n", cpu_max="50000 100000\n")) == 1
 

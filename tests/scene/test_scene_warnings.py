@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import pickle
 from types import SimpleNamespace
 
 import numpy as np
@@ -140,3 +141,18 @@ def test_a_surface_at_rest_of_a_smooth_contact_has_its_steps(name, srr):
     """With temperatures a step is chosen by the pace of the other surface, also if body a is the one at rest."""
     rests = scene(name).replace(srr=srr, **{"thermal.on": True})
     assert 0 < timeline.step_length(rests) < 1 and isinstance(rests.warnings(), list)
+
+
+def test_warnings_are_found_once_and_follow_the_keys_that_the_user_gave(monkeypatch):
+    from tehl_taichi.scene import scene_warnings
+
+    asked, own = [], scene_warnings.warnings
+    monkeypatch.setattr(scene_warnings, "warnings", lambda one: asked.append(one) or own(one))
+    some = GEAR.replace(**{"oil.k0": 0.2})
+    first = some.warnings()
+    first.clear()
+    assert some.warnings() and len(asked) == 1  # a list of its own for every caller
+    assert pickle.loads(pickle.dumps(some)).warnings() == some.warnings() and len(asked) == 1
+    idle = scene("smooth-line").replace(**{"thermal.on": False})
+    before = {line.code for line in idle.warnings()}
+    assert {line.code for line in idle.with_user_keys({"thermal.nodes"}).warnings()} - before == {"idle"}

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from small_stores import shot, store
+from small_stores import SMALL, shot, store
 
 from tehl_taichi.scene import scene
 
@@ -74,3 +74,27 @@ def test_what_a_stopped_run_computed_is_shown(tmp_path, monkeypatch):
     with Store.write(store(tmp_path / "s.zarr", entries=1).path) as saved, pytest.raises(ArithmeticError):
         recorder.march_on(saved, None)
     assert len(Store.open(saved.path)) == 4
+
+
+def test_the_group_lists_its_arrays_as_their_own_files_describe_them(tmp_path):
+    """A writer knows them; none is read back. Coordinates of a new store are those that readers find."""
+    import json
+
+    from tehl_taichi.store.store import Store
+
+    def described(path):
+        own = {file.parent.name: json.loads(file.read_text()) for file in sorted(path.glob("*/zarr.json"))}
+        for array in own.values():
+            array["shape"][0] = 2 if array["dimension_names"][0] == "time" else array["shape"][0]
+        return own
+
+    def listed(path):
+        return json.loads((path / "zarr.json").read_text())["consolidated_metadata"]["metadata"]
+
+    with Store.create(tmp_path / "s.zarr", SMALL, shot(0), 9, {"steady_error": "{}"}) as saved:
+        saved.append(shot(1), shot(1).state)
+        assert list(listed(saved.path)) == sorted(listed(saved.path)) and listed(saved.path) == described(saved.path)
+        saved.finish({"warnings": []}, {"fi": (np.ones((2, 3)), ["x", "y"], "1", "index")})
+        assert listed(saved.path) == described(saved.path) and "fi" in listed(saved.path)
+        found = Store.open(saved.path)
+        assert np.array_equal(found.x, saved.x) and np.array_equal(found.y, saved.y) and found.x.dtype == saved.x.dtype
