@@ -35,8 +35,20 @@ def _weights(part):
 def carried(q, cells):
     """Field q (..., nx+1) moved by `cells` towards +x, outside of kernels; inflow has the border values."""
     back, weights = shift(cells)
+    if 1.0 in weights:
+        return _by_columns(q, back - 3)
     at, last = np.arange(q.shape[-1]), q.shape[-1] - 1
     return sum(weight * np.take(q, np.clip(at - back + k, 0, last), -1) for k, weight in enumerate(weights) if weight)
+
+
+def _by_columns(q, cells):
+    """Field q moved by whole cells."""
+    columns = min(abs(cells), q.shape[-1] - 1)
+    if not columns:
+        return q
+    kept, border = (q[..., :-columns], q[..., :1]) if cells > 0 else (q[..., columns:], q[..., -1:])
+    inflow = np.repeat(border, columns, axis=-1)
+    return np.concatenate([inflow, kept] if cells > 0 else [kept, inflow], axis=-1)
 
 
 def set_way(way, cells, weight=1.0):

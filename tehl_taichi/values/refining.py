@@ -15,6 +15,8 @@ def matrix(factor, nodes, points, mirrored=False, odd=False):
     antisymmetric one.
     """
     out = np.zeros(((nodes - 1) * factor + 1, nodes))
+    if nodes == 1:
+        return out + 1.0
     for fine, row in enumerate(out):
         cell, part = divmod(fine, factor)
         if part == 0:
@@ -38,12 +40,20 @@ class Refining:
         self.factor, self.nodes, self.mirrored = factor, nodes, mirrored
 
     def smooth(self, field, points=6):
-        """Field by polynomials through `points` nodes."""
-        y, x = (matrix(self.factor, nodes, points, mirrored)[part] if nodes > 1 else np.ones((1, 1))
-                for nodes, part, mirrored in zip(self.nodes, self.parts, (self.mirrored, False)))
-        return y @ field @ x.T
+        """Field by polynomials through `points` nodes, in its own precision."""
+        (rows, y), (columns, x) = (_needed(matrix(self.factor, nodes, points, mirrored)[part])
+                                   for nodes, part, mirrored in zip(self.nodes, self.parts, (self.mirrored, False)))
+        own = np.result_type(field, np.float32)
+        return y.astype(own, copy=False) @ field[..., rows, columns] @ x.T.astype(own, copy=False)
 
     def pressure(self, field):
         """Pressure by cubic polynomials, linear in cells with a dry node, never negative."""
         dry = self.smooth((field <= 0.0).astype(float), 2) > 0.0
         return np.maximum(np.where(dry, self.smooth(field, 2), self.smooth(field, 4)), 0.0)
+
+
+def _needed(weights):
+    """(slice of the nodes that these weights (fine nodes, nodes) use, weights of them)."""
+    used = np.flatnonzero(weights.any(axis=0))
+    nodes = slice(used[0], used[-1] + 1)
+    return nodes, weights[:, nodes]

@@ -101,6 +101,13 @@ def test_carried_is_a_shift(cells):
     np.testing.assert_allclose(carried(np.ones(9), cells), 1.0)
 
 
+@pytest.mark.parametrize("cells", [-12, -3, 0, 2, 12])
+def test_what_moves_by_whole_cells_keeps_its_values(cells):
+    q = np.random.default_rng(2).random((2, 9))
+    at = np.clip(np.arange(9) - cells, 0, 8)
+    assert np.array_equal(carried(q, float(cells)), q[:, at])
+
+
 def test_third_order_difference():
     x = np.linspace(0, 1, 21)
     for power in range(4):

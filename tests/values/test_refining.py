@@ -32,6 +32,14 @@ def test_a_part_is_that_of_the_whole():
     assert np.array_equal(whole[::4, ::4], field)
 
 
+def test_a_field_keeps_its_precision():
+    field = np.linspace(40.0, 200.0, 63).reshape(7, 9)
+    fine = Refining((3, 5), (8, 11), 4, (7, 9), True)
+    single = fine.smooth(field.astype(np.float32))
+    assert single.dtype == np.float32 and fine.smooth(field).dtype == float
+    assert np.allclose(single, fine.smooth(field), rtol=0, atol=1e-4)
+
+
 def test_pressure_is_linear_beside_dry_nodes_and_never_negative():
     field = np.array([[0.0, 0.0, 0.0, 1.0, 4.0, 5.0, 4.0, 1.0, 0.0, 0.0]])
     found = Refining((0, 0), (1, 19), 2, (1, 10), False).pressure(field)[0]

@@ -33,11 +33,12 @@ class WindowState:
 class TwoFrames:
     """The last states of a field in a window, and the guess of the next one.
 
-    order: highest order of extrapolation; start: the field of the steady start (..., ny+1, columns) on all fine columns.
+    order: highest order of extrapolation. start: the field of the steady start (..., ny+1, columns) on all fine columns.
+    judged: layers of a field (layers, ny+1, nx+1) that show the errors of guesses (None: the whole field).
     """
 
-    def __init__(self, order, start):
-        self.order, self.start, self.states = order, start, []
+    def __init__(self, order, start, judged=None):
+        self.order, self.start, self.states, self.judged = order, start, [], judged
         self.made, self.missed = None, None
 
     def next(self, run, origin, at):
@@ -45,38 +46,53 @@ class TwoFrames:
 
         run: the field of the run there. Raises IndexError before the first :meth:`accept`.
         """
-        self.made = self._guesses(run, origin, at)
+        parts, guesses = self._parts(run, origin, at), self._guesses(at)
+        shown = [self._shown(part) for part in parts]
+        self.made = [_sum(shares, shown) for shares in guesses]
         if self.missed is None:
-            return self.made[0]
-        missed = [carried(one, self.states[0].origin - origin) for one in self.missed[: len(self.made)]]
-        weights = [1.0 / (one + NOTHING) for one in missed]
-        return sum(weight * guess for weight, guess in zip(weights, self.made)) / sum(weights)
+            return parts[0]
+        weights = [1.0 / (carried(one, self.states[0].origin - origin) + NOTHING) for one in self.missed[: len(guesses)]]
+        total = sum(weights)
+        return _sum([_sum(shares, weights) / total for shares in zip(*guesses)], parts)
 
     def accept(self, field, run, origin, at):
         """Take `field` as the newest state; run: the field of the run there."""
-        known = len(self.states) > self.order
-        self.missed = [_nearby((guess - field) ** 2) for guess in self.made] if known and self.made else None
+        known, shown = len(self.states) > self.order, self._shown(field)
+        self.missed = [_nearby((guess - shown) ** 2) for guess in self.made] if known and self.made else None
         newest = WindowState(field, field - self._rests(origin, field), field - run, origin, at)
         self.states = [newest, *self.states[: self.order]]
+
+    def _shown(self, field):
+        """The layers that show errors."""
+        return field if self.judged is None else field[self.judged]
 
     def _rests(self, origin, like):
         """The field of the steady start in the window, shaped as `like`."""
         return self.start[..., origin : origin + like.shape[-1]]
 
-    def _guesses(self, run, origin, at):
-        """List of guesses: the run plus the last difference; then extrapolations of order 1 to the highest in both frames (of
-        order 0 if only one state is known)."""
-        rests, newest = self._rests(origin, run), self.states[0]
-        back = [one.origin - origin for one in self.states]
-        ride = [at - one.at + way for one, way in zip(self.states, back)]
-        still = [carried(one.field, way) for one, way in zip(self.states, back)]
-        moving = [carried(one.passing, way) for one, way in zip(self.states, ride)]
+    def _parts(self, run, origin, at):
+        """List of fields: the run plus the last difference; the last states in the frame of the feature; and in that of the
+        contact."""
+        rests, ways = self._rests(origin, run), [(one, one.origin - origin) for one in self.states]
+        finer = run + carried(self.states[0].finer, at - self.states[0].at + ways[0][1])
+        moving = [rests + carried(one.passing, at - one.at + way) for one, way in ways]
+        return [finer, *moving, *(carried(one.field, way) for one, way in ways)]
+
+    def _guesses(self, at):
+        """List of guesses, each a list of the shares of the parts: the first part; then extrapolations of order 1 to the
+        highest in both frames (of order 0 if only one state is known)."""
         places = [one.at for one in self.states]
-        out = [run + carried(newest.finer, ride[0])]
+        none = [0.0] * len(places)
+        out = [[1.0, *none, *none]]
         for count in range(2, len(places) + 1) if len(places) > 1 else [1]:
-            weights = lagrange(places[:count], at)
-            out += [rests + sum(w * one for w, one in zip(weights, moving)), sum(w * one for w, one in zip(weights, still))]
+            shares = [*lagrange(places[:count], at), *none[count:]]
+            out += [[0.0, *shares, *none], [0.0, *none, *shares]]
         return out
+
+
+def _sum(weights, parts):
+    """Sum of the parts times their weights (numbers or fields)."""
+    return sum(weight * part for weight, part in zip(weights, parts) if np.any(weight))
 
 
 def _nearby(squares):

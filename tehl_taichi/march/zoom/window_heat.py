@@ -27,7 +27,8 @@ class WindowHeat:
         self.base, self.window, self.refining, self.given = base, levels.window, refining, given
         self.film, self.origin = FilmHeat(levels, dt, given=True), 0
         self.run = None  # temperatures of the run at the nodes of the window
-        self.guess = TwoFrames(ORDER, refining(0, self.window.all_nx + 1).smooth(base.at(0).T, 4))
+        walls_and_middle = [0, self.film.nz // 2, -1]
+        self.guess = TwoFrames(ORDER, refining(0, self.window.all_nx + 1).smooth(base.at(0).T, 4), walls_and_middle)
 
     def take_over(self, step, origin, at):
         """Take the temperatures of the run at a step; origin: first fine column; at: place of the feature, fine columns."""
@@ -35,26 +36,28 @@ class WindowHeat:
         offset = self.window.factor * state.offset
         T = self._fine(state.T, origin)
         self.film.continue_from(T, self._memory(state, origin), offset - np.floor(offset + WHOLE))
-        self.guess.accept(self.film.T, T, origin, at)
+        self.guess.accept(self.film.T.astype(np.float32), T, origin, at)
 
     def begin(self, T, origin, at, dt):
         """Prepare a step of dt (s) to a moment with the run's temperatures T, the first column `origin` and the feature
         `at`."""
         self.film.begin(dt, origin - self.origin)
         self.run = self._fine(T, origin)
-        guess = np.clip(self.guess.next(self.run, origin, at), self.film.T.min(), self.film.T.max() + HOTTER)
+        lowest, highest = float(self.film.T.min()), float(self.film.T.max()) + HOTTER
+        guess = np.clip(self.guess.next(self.run, origin, at), lowest, highest)
         self.film.set_temperature(np.where(self.given, self.run, guess))
 
     def accept(self, origin, at):
         """Accept the step: it becomes the last one."""
         self.film.accept()
-        self.guess.accept(self.film.T, self.run, origin, at)
+        self.guess.accept(self.film.T.astype(np.float32), self.run, origin, at)
         self.origin = origin
 
     def refresh(self, step):
         """Set the memory of the bodies along the border to that of the run at this step."""
         bodies = self.film.bodies
-        memory = np.where(self.given, self._memory(self.base.heat.at(step), self.origin), bodies.memory())
+        memory = bodies.memory()
+        np.copyto(memory, self._memory(self.base.heat.at(step), self.origin), where=self.given)
         bodies.restore(memory, bodies.offset)
 
     def fields(self):
@@ -80,7 +83,7 @@ class WindowHeat:
         """
         factor, count = self.window.factor, conduction_modes.MODES
         whole = np.floor(factor * state.offset + WHOLE) - factor * np.floor(state.offset + WHOLE)
-        out = np.empty((len(state.memory), *self.given.shape))
+        out = np.empty((len(state.memory), *self.given.shape), state.memory.dtype)
         for body, ahead in enumerate(whole.astype(int)):
             first, flux = strips.memory(count, body)
             fine = self.refining(origin - ahead, self.window.nx + 1)

@@ -51,6 +51,9 @@ class WindowPassage:
         self.old = [self._kept(state, self.window.origin(state.X)) for state in map(self.base.at, moments)]
         state = self.base.at(step)
         origin, ring = self._put(state)
+        self.levels.put(fields.P, ring)
+        self.levels.set_film(state.H0)
+        self.film.values()
         self.guess.accept(ring, ring, origin, self._at(state))
         if self.heat:
             self.heat.take_over(step, origin, self._at(state))
@@ -119,16 +122,11 @@ class WindowPassage:
         return {**found, **{name: max(there, *(one[name] for one in self.extremes)) for name, there in outside.items()}}
 
     def _put(self, state):
-        """Write gap and pressure of the run's `state` into the tables.
-
-        Returns the window's first fine column and this pressure (ny+1, nx+1).
-        """
+        """Write the gap of the run's `state` into the tables; return the window's first fine column and the run's pressure
+        (ny+1, nx+1) in it."""
         origin = self.window.origin(state.X)
         ring = self._refining(origin, self.window.nx + 1).pressure(state.P)
         self.outside.put(state, origin, ring)
-        self.levels.put(fields.P, ring)
-        self.levels.set_film(state.H0)
-        self.film.values()
         return origin, ring
 
     def _refining(self, first, columns):
