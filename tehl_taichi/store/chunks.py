@@ -1,4 +1,4 @@
-"""Chunk files of arrays, compressed as the array declares (bytes and zstd with a checksum), and whole arrays.
+"""Chunk files of arrays, compressed as the array declares (bytes and zstd with a checksum).
 
 The declared size of a file is compared with its array before memory is allocated: a few bytes can declare terabytes.
 """
@@ -6,23 +6,17 @@ The declared size of a file is compared with its array before memory is allocate
 import math
 
 import numpy as np
-import zarr
 from numcodecs import zstd
-from zarr.codecs import ZstdCodec
 
 from tehl_taichi.disk import files, memory_limit
 from tehl_taichi.disk.links import ROOT
 from tehl_taichi.errors import StoreError
 
 LEVEL = 1  # of zstd: the fields are a third smaller, more costs more time than it saves
+SETTINGS = {"level": LEVEL, "checksum": True}  # of the chunks of a new array
 CODECS = {"bytes", "zstd", "vlen-utf8"}
 MAGIC, ID, SIZES = b"\x28\xb5\x2f\xfd", (0, 1, 2, 4), {1: 2, 2: 4, 3: 8}  # of a frame (RFC 8878)
 SLACK = 1000  # bytes by which a chunk that does not shrink may grow, beside a hundredth
-
-
-def codecs():
-    """Compression of the chunks of a new array."""
-    return ZstdCodec(level=LEVEL, checksum=True)
 
 
 def read(path, dtype, count):
@@ -51,18 +45,6 @@ def declared_bytes(frame):
 def compressed(values, dtype):
     """Compressed content of a chunk file. Zarr itself needs 5 ms for it, times 24 arrays per step."""
     return zstd.compress(np.ascontiguousarray(values, dtype), LEVEL, True)
-
-
-def read_whole(folder):
-    """The values of the array in `folder`. Raises StoreError."""
-    try:
-        check(folder)
-        return zarr.open_array(str(folder), mode="r")[...]
-    except StoreError:
-        raise
-    except Exception as error:  # zarr and its codecs have no common one
-        why = getattr(error, "strerror", None) or " ".join(str(error).split())
-        raise StoreError(f"{folder} is damaged or missing ({why})") from None
 
 
 def check(folder):

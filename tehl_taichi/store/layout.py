@@ -1,16 +1,14 @@
 """Arrays of a store, and the file that lists the entries visible to a reader."""
 
-import functools
 import json
 import math
 from typing import Any
 
 import numpy as np
-import zarr
 
 from tehl_taichi.disk import files
 from tehl_taichi.march.step_output import fields_of, scalars_of
-from tehl_taichi.store import chunks
+from tehl_taichi.store import array_file, chunks
 from tehl_taichi.store.integrity import ROOT
 
 # series of the snapshot itself: (dtype, units, text, what is not written yet, how they stand for several steps)
@@ -35,41 +33,28 @@ def publish(path, attrs, arrays):
     files.replace(path / ROOT, json.dumps(root).encode())
 
 
-def array(folder, name, shape, chunk, dtype, dims, units, long_name, fill, between="/", **attrs):
+def array(folder, name, shape, chunk, dtype, dims, units, long_name, fill, between=array_file.SEPARATOR, **attrs):
     """Create an array of the group in `folder`; between: separator of the numbers of a chunk in its file name. Returns {name:
     its metadata}."""
-    attributes = json.dumps({"units": units, "long_name": long_name, **attrs})
+    found = array_file.described(shape, chunk, dtype, dims, fill, {"units": units, "long_name": long_name, **attrs}, between)
     (folder / name).mkdir()
-    content, parsed = _described(tuple(shape), tuple(chunk), dtype, tuple(dims), fill, between, attributes)
-    files.write(folder / name / ROOT, content)
-    return {name: {**parsed, "shape": list(shape)}}
+    files.write(folder / name / ROOT, array_file.content(found))
+    return {name: found}
 
 
 def whole(folder, name, values, dims, units, long_name, fill=0.0, **attrs):
     """Create an array of one chunk with its values, f4 or else f8. Returns {name: its metadata}."""
     kind = "f4" if np.asarray(values).dtype == np.float32 else "f8"
     values = np.asarray(values, kind)
-    described = array(folder, name, values.shape, values.shape, kind, dims, units, long_name, fill, **attrs)
-    chunk = folder / name / "/".join(["c", *("0" * values.ndim)])
+    found = array(folder, name, values.shape, values.shape, kind, dims, units, long_name, fill, **attrs)
+    chunk = array_file.chunk_file(folder / name, values.ndim)
     chunk.parent.mkdir(parents=True)
     files.write(chunk, chunks.compressed(values, "<" + kind))
-    return described
-
-
-@functools.lru_cache(maxsize=1000)
-def _described(shape, chunk, dtype, dims, fill, between, attributes):
-    """(content, what it says) of the metadata file of an array. Kept: zarr takes 2 ms for it, and the stores of a study have
-    the same ones."""
-    made: dict[str, Any] = {}
-    zarr.create_array(made, shape=shape, chunks=chunk, dtype=dtype, dimension_names=dims, fill_value=fill,
-                      compressors=chunks.codecs(), chunk_key_encoding={"name": "default", "separator": between},
-                      attributes=json.loads(attributes))
-    content = made[ROOT].to_bytes()
-    return content, json.loads(content)
+    return found
 
 
 def _coordinates(folder, snapshot):
-    made = {}
+    made: dict[str, Any] = {}
     for name, values, text in (("x", snapshot.x, "along rolling"), ("y", snapshot.y, "across")):
         made |= whole(folder, name, values, [name], "m", text)
     if "temperature" in snapshot.fields:
@@ -81,7 +66,7 @@ def _coordinates(folder, snapshot):
 
 
 def _fields(folder, capacity, scene, snapshot):
-    made = {}
+    made: dict[str, Any] = {}
     for name, field in fields_of(scene).items():
         shape, fill = snapshot.fields[name].shape, 0 if field.dtype == "u1" else math.nan
         # files without folders: three a field would be made at every step
@@ -91,7 +76,7 @@ def _fields(folder, capacity, scene, snapshot):
 
 
 def _series(folder, capacity, scene):
-    made = {}
+    made: dict[str, Any] = {}
     numbers = {name: ("f8", scalar.unit, scalar.says, math.nan, scalar.over) for name, scalar in scalars_of(scene).items()}
     for name, (dtype, units, text, fill, over) in {**numbers, **OWN}.items():
         folded = {"cell_methods": f"time: {over}"} if over and scene.output.every > 1 else {}

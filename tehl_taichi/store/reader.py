@@ -11,7 +11,7 @@ from tehl_taichi.disk.locks import holder
 from tehl_taichi.errors import StoreError
 from tehl_taichi.march.step_output import fields_of, names, scalars_of
 from tehl_taichi.scene.timeline import cut_at
-from tehl_taichi.store import chunks, integrity
+from tehl_taichi.store import array_file, chunks, integrity
 from tehl_taichi.store import stand_in as stand_in_scene
 from tehl_taichi.store.layout import OWN
 from tehl_taichi.values.coded_warning import warnings_of_lists
@@ -156,7 +156,7 @@ class Reader:
         return out
 
     def _whole(self, name):
-        return chunks.read_whole(self.path / name)
+        return array_file.read_whole(self.path / name)
 
     @property
     def run_in(self):

@@ -1,18 +1,20 @@
 """Height maps of a scene inside its store: it can be shown, resumed and run again without the map files."""
 
+from typing import Any
+
 import numpy as np
 
 from tehl_taichi.errors import StoreError, brief
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.feature import SHAPES
 from tehl_taichi.scene.surface.maps import height_map
-from tehl_taichi.store import chunks, layout
+from tehl_taichi.store import array_file, layout
 
 
 def write(folder, scene):
     """Store the heights of the scene's maps as they were read, each once, under the hash that its feature names. Returns the
     metadata of their arrays, {name: metadata}."""
-    made = {}
+    made: dict[str, Any] = {}
     for feature in scene.features:
         if feature.kind.measured and not (folder / (name := _name(feature.sha256))).exists():
             made |= layout.whole(folder, name, np.asarray(feature.heights, float), [f"{name}_row", f"{name}_column"],
@@ -46,7 +48,7 @@ def _upgrade(feature):
 
 def _heights(path, sha256):
     try:
-        found, values = height_map.keep(chunks.read_whole(path / _name(sha256)))
+        found, values = height_map.keep(array_file.read_whole(path / _name(sha256)))
     except Exception as error:
         raise StoreError(f"{path / _name(sha256)}: the stored height map cannot be read: {brief(error)}") from None
     if found != sha256:

@@ -20,7 +20,7 @@ from tehl_taichi.disk import files, memory_limit, npy
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.scene import memory_demand, scene
 from tehl_taichi.scene.surface.maps import height_map
-from tehl_taichi.store import chunks
+from tehl_taichi.store import array_file, chunks
 from tehl_taichi.store.store import Store
 
 BOMB = zstd.compress(bytes(3 * 10**7), 19, True)  # 30 MB in a kB
@@ -113,7 +113,7 @@ def test_files_without_end(tmp_path, name):
             tehl.scene(path / name)
         else:
             tehl.open(path).store.fields(0), tehl.open(path).store.x
-            chunks.read_whole(path / "x")
+            array_file.read_whole(path / "x")
 
 
 def test_a_device_is_no_file():

@@ -91,7 +91,7 @@ def test_a_field_is_checked_too(path):
     with pytest.raises(StoreError, match="film/c.3.0.0 is damaged"):
         saved.fields(3)
     (path / "x" / "c" / "0").write_bytes(b"nonsense")
-    with pytest.raises(StoreError, match="x is damaged"):
+    with pytest.raises(StoreError, match="x/c/0 is damaged"):
         saved.x  # noqa: B018
 
 

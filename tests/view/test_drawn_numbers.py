@@ -163,7 +163,7 @@ def test_room_is_asked_for_an_array_and_one_of_its_chunks(tmp_path, monkeypatch)
     from tehl_taichi.store import chunks
 
     array = zarr.open_group(str(tmp_path), mode="w").create_array("a", shape=(6, 5), chunks=(4, 5), dtype="f8",
-                                                                  compressors=chunks.codecs())
+                                                                  compressors=zarr.codecs.ZstdCodec(level=1, checksum=True))
     array[:] = np.arange(30.0).reshape(6, 5)
     asked = []
     monkeypatch.setattr(chunks.memory_limit, "check", lambda size, what, kind=None: asked.append(size))

@@ -14,7 +14,6 @@ import time
 from pathlib import Path
 
 import numpy as np
-import zarr
 
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
@@ -26,6 +25,7 @@ from tehl_taichi.runs.sweep import case_records as records
 from tehl_taichi.runs.sweep import summary_columns
 from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
 from tehl_taichi.runs.sweep.plan import ONE, Plan, unit
+from tehl_taichi.store import array_file
 from tehl_taichi.store.integrity import ROOT, missing_choice
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.escape import cell
@@ -199,44 +199,41 @@ class Study(LockedFolder):
 
     def _flush(self):
         started = time.monotonic()
-        group = zarr.open_group(str(self.path), mode="a", zarr_format=3)
         if not self.written:
-            self._write_coordinates(group)
+            self._write_coordinates()
         for name, values in self.values.items():
-            self._write(group, name, values, summary_columns.unit_of(name), name.replace("_", " "))
-        self._write(group, "status", self.status, "1", "status of the case", flag_values=list(records.STATUS.values()),
+            self._write(name, values, summary_columns.unit_of(name), name.replace("_", " "))
+        self._write("status", self.status, "1", "status of the case", flag_values=list(records.STATUS.values()),
                     flag_meanings=" ".join(word.replace(" ", "_") for word in records.STATUS))
         self._publish()
         replace(self.table, self._csv().encode())
         self.due = time.monotonic() + max(EVERY, (time.monotonic() - started) / SHARE)
 
-    def _write_coordinates(self, group):
+    def _write_coordinates(self):
         for key in self.plan.keys:
             dim, values = self.plan.coordinate(key)
             values = np.array(values) if all_numbers(values) else np.array([word(value) for value in values], dtype=object)
-            dtype = str if values.dtype == object else values.dtype
-            self._make(group, key, values.shape, dtype, [dim], unit(self.plan.scene, key), key)[:] = values
+            self._make(key, values, [dim], unit(self.plan.scene, key), key)
         if ONE not in self.plan.keys:
-            numbers = np.arange(len(self)).reshape(self.plan.shape)
-            self._make(group, ONE, numbers.shape, "i4", self.plan.dims, "1", f"number of the case: its store is "
-                       f"{CASES}/NUMBER.zarr")[...] = numbers
+            numbers = np.arange(len(self), dtype="i4").reshape(self.plan.shape)
+            self._make(ONE, numbers, self.plan.dims, "1", f"number of the case: its store is {CASES}/NUMBER.zarr")
 
-    def _write(self, group, name, values, unit_, text, **attrs):
-        if name not in self.written:
-            self._make(group, name, self.plan.shape, values.dtype, self.plan.dims, unit_, text, **attrs)
-        self.written[name][...] = values.reshape(self.plan.shape)
+    def _write(self, name, values, unit_, text, **attrs):
+        values = values.reshape(self.plan.shape)
+        if name in self.written:
+            array_file.write_values(self.path / name, values)
+        else:
+            self._make(name, values, self.plan.dims, unit_, text, **attrs)
 
-    def _make(self, group, name, shape, dtype, dims, unit_, text, **attrs):
-        fill = "" if dtype is str else float("nan") if np.dtype(dtype).kind == "f" else 0
-        array = group.create_array(name, shape=shape, chunks=shape, dtype=dtype, dimension_names=list(dims), fill_value=fill,
-                                   overwrite=True)
-        array.attrs.update({"units": unit_, "long_name": text, **attrs})
-        self.written[name] = array
-        return array
+    def _make(self, name, values, dims, unit_, text, **attrs):
+        """Write an array in place of an existing one."""
+        fill = float("nan") if values.dtype.kind == "f" else 0
+        attributes = {"units": unit_, "long_name": text, **attrs}
+        self.written[name] = array_file.write(self.path / name, values, dims, fill, attributes)
 
     def _publish(self):
         """Replace the group's metadata, with those of its arrays, as a whole."""
-        arrays = {name: json_of(self.path / name / ROOT) for name in self.written}
+        arrays = self.written
         coordinates = [key for key in (*self.plan.keys, ONE) if key in arrays and key not in self.plan.dims]
         attrs = {PLAN: self.plan.text, "version": __version__, "commit": commit(), "coordinates": " ".join(coordinates)}
         root = {"zarr_format": 3, "node_type": "group", "attributes": attrs,
