@@ -54,7 +54,10 @@ from tehl_taichi.pressure.tractions import solid_friction
 DT = 1e-2  # K, step of the difference quotient in temperature
 RISE = 1e-3  # and of that in the Newtonian stress, a part of it
 FADE = 1e-4  # heat sources fade as P/(P + FADE) towards the cavitated outlet: switching them off at P = 0 cycles
-QUADRATIC = 0.1  # 1/K: a Newton step of a column that changes T by d is followed by one of about 0.1 d^2 (beta/2 is 0.05)
+# The second Newton step of a column is expected to be at most this part of the first. By the square of the first (0.1 d^2/K)
+# steps of up to 0.2 K were the last ones, also where they go to and fro: rounds of pressure and temperatures ended no sooner
+# than by chance (an exit on 256x64x9, a window four times as fine: 192 and 155 temperature solves in 32 steps)
+FIRST_LEAVES = 0.1
 WARM, HOT = 100.0, 900.0  # the temperature stays above the inlet's minus WARM, and below HOT (deg C)
 LONGEST = 60.0  # K, of a Newton step of a column
 # Newton steps of a column with the -d ln eta/d Gamma that it began with, and what a step must leave of the one before, or the
@@ -392,8 +395,8 @@ def solve_column(Z: ti.template(), C: ti.template(), X: ti.template(), N: ti.tem
         clamped += held
         if SLUGGISH * previous < moved and previous < LONGEST:
             part = paced(part, sum_of_rows(went * before, at))
-        # of the next step: quadratic at first, then as the last two; saves the step that would only confirm
-        expected = QUADRATIC * moved * moved if count == 1 else moved * ti.min(moved / previous, 1.0)
+        # of the next step: as the last two, saves the step that would only confirm
+        expected = FIRST_LEAVES * moved if count == 1 else moved * ti.min(moved / previous, 1.0)
     if expected > step.tolerance and largest_row(col.p * solved, at) > LIGHT * scene.p_H:
         failed = 1.0
     return failed, clamped

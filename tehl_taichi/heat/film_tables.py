@@ -16,14 +16,16 @@ from tehl_taichi.laws.viscosity import parts
 Fields = ti.types.ndarray(dtype=ti.f64, ndim=3)
 
 # temperature, that of the last step and the one before; velocities; h int_0 rho (u, v, 1), the last one of the last two
-# steps too; 1/eta, rho; temperature and pressure change at the departure points; temperature of the last round
-T, TN, TNN, U, VY, MX, MY, MS, MSN, MSNN, NIE, NRHO, TS, PS, LAST = range(15)
-KEPT = 15  # and from here on what of the viscosity depends on the temperature alone, where its law has such parts
+# steps too; 1/eta, rho; temperature and pressure change at the departure points; temperature before a round; result of the
+# round before that and what it changed (:mod:`tehl_taichi.heat.relaxation`)
+T, TN, TNN, U, VY, MX, MY, MS, MSN, MSNN, NIE, NRHO, TS, PS, LAST, CAME, CHANGED = range(17)
+KEPT = 17  # and from here on what of the viscosity depends on the temperature alone, where its law has such parts
 # pressure of the last step and the one before (Pa); heat into the bodies; A of T_s = A + B q; stress of the Couette part;
 # gradient of the pressure (Pa/m); shear on the walls z = 0 and z = h; pressure (Pa) and film (m) of the last round; squares of
-# what extrapolations would have missed, in the frame of the contact and in that of the feature; heat of the slip along walls
-PN, PNN, QA, QB, AA, AB, TAU, PX, PY, XA, YA, XB, YB, PL, HL, STILL, MOVING, SA, SB = range(19)
-SINGLES = 19
+# what extrapolations would have missed, in the frame of the contact and in that of the feature; heat of the slip along walls;
+# products of changes by rounds (:mod:`tehl_taichi.heat.relaxation`)
+PN, PNN, QA, QB, AA, AB, TAU, PX, PY, XA, YA, XB, YB, PL, HL, STILL, MOVING, SA, SB, TURNED, BENT, STILLED = range(22)
+SINGLES = 22
 # report[tile, ...]: largest change of T against the last iterate (K), columns that did not converge, nodes held in range, and 1
 # where the tile rests (:mod:`tehl_taichi.heat.skip_tiles`)
 CHANGE, FAILED, HELD, RESTS = range(4)

@@ -4,6 +4,7 @@ A step: velocities from the generalised Reynolds solution, departure points of t
 conduction, both heat sources and both walls (T_s = A + B q of the bodies).
 """
 
+import functools
 import math
 from dataclasses import dataclass
 
@@ -12,8 +13,7 @@ import numpy as np
 from tehl_taichi.engine import field_pool, simd
 from tehl_taichi.engine.records import Record
 from tehl_taichi.engine.taichi_patches.prebound import bind
-from tehl_taichi.heat import departure_points, energy, film, film_tables, skip_tiles
-from tehl_taichi.heat.aitken import Relaxation
+from tehl_taichi.heat import departure_points, energy, film, film_tables, relaxation, skip_tiles
 from tehl_taichi.heat.bodies import ConductingBodies
 from tehl_taichi.heat.chebyshev import ChebyshevNodes
 from tehl_taichi.heat.heat_step import HeatStep
@@ -59,7 +59,7 @@ class FilmHeat:
         self.holding = False  # columns without a solution at the temperatures of the oil that came in, see :meth:`hold`
         self.step, self.dt_now, self.dt_before = Record(HeatStep, given=float(given)), 0.0, 0.0
         self.moved = self.moved_before = 0  # cells that the grid moves in this step, and in the last
-        self.report, self.rounds = HeatReport(math.nan, 0, 0), Relaxation()
+        self.report, self.relaxed = HeatReport(math.nan, 0, 0), False
         self._bind(levels.scene)
 
     def _bind(self, scene):
@@ -104,7 +104,7 @@ class FilmHeat:
 
     def begin(self, dt, moved=0):
         """Prepare a step of dt s in which the grid moves by `moved` cells: memory of the bodies, A and B of both surfaces."""
-        v, a, self.dt_now, self.rounds = self.levels, self.levels.scales.a, dt, Relaxation()
+        v, a, self.dt_now, self.relaxed = self.levels, self.levels.scales.a, dt, False
         self.moved, (B_a, B_b) = moved, self.bodies.begin(dt, moved)
         rate, (near, *far) = bdf(*([dt, self.dt_before] if self.dt_before else [dt]))
         self.step.set(rate=rate, near=near, far=sum(far), back=dt, back_2=dt + self.dt_before, inv_x=1 / (v.dx * a),
@@ -120,12 +120,13 @@ class FilmHeat:
         """
         if again:
             self._choose_rest()
+        else:
+            self.tile_report[:, film_tables.RESTS] = 0.0
         self._velocities()
         self._departures()
         self._energy()
         change, failed, held = (self.tile_report[:, column]
                                 for column in (film_tables.CHANGE, film_tables.FAILED, film_tables.HELD))
-        self.tile_report[:, film_tables.RESTS] = 0.0
         self.report = HeatReport(float(change.max()), int(failed.sum()), int(held.sum()))
         return self.report
 
@@ -151,9 +152,16 @@ class FilmHeat:
         return worth
 
     def relax(self):
-        """Relax the change of the last round, if rounds alternate about the solution; no tile is skipped in the next one."""
-        self.tile_report[:, film_tables.CHANGE] = np.inf
-        self.set_temperature(self.rounds.relaxed(self.columns.nodes(film_tables.LAST), self.temperature()))
+        """Relax the change of the last round (:mod:`tehl_taichi.heat.relaxation`); tiles that this moves are not skipped."""
+        self._relax[self.relaxed]()
+        self.relaxed = True
+
+    @functools.cached_property
+    def _relax(self):
+        """Relaxation of the first round of a step, which only stores it, and of later ones."""
+        v, quiet = self.levels, RESTING * self.levels.scene.thermal.tolerance
+        return [bind(relaxation.relax, self.columns.field, self.columns.singles.field, v.G, self.nz, v.scene.oil, known, quiet,
+                     v.scene.operation.temperature - energy.WARM, self.tile_report) for known in (0.0, 1.0)]
 
     def accept(self):
         """Store this step as the last one."""
@@ -164,6 +172,7 @@ class FilmHeat:
 
     def _keep(self):
         """Store the present state of the film as that of the last step."""
+        self.tile_report[:, film_tables.RESTS] = 0.0
         self._remembered()
         self._accept()
         self.T = self.temperature()

@@ -11,7 +11,6 @@ RETRY_KRYLOV = 3e-3  # of a solve that failed: ten times tighter
 # rounds those are given up that have had no smaller change for WITHIN. Two ground surfaces with marks along, Ra 0.3 um, SRR
 # 0.12, 256x64x9, steps 56 to 73: 917 rounds, 19 attempts rejected; so 681 and 23
 SURELY, WITHIN = 8, 4
-SLUGGISH = 0.2  # rounds that leave more of the last change are relaxed; usual is 0.01 to 0.1
 # While temperatures change by more (K) a pressure is solved for to the residual ROUGH only: it belongs to none of them. And
 # where the first Newton step is large (SMALL_CHANGE), Newton continues to this residual before the first temperature solve.
 # Newton steps and rounds a step: last quarter of the gear's passage on 256x64x9 at SRR -0.12 and 0.12, all with a ridge on
@@ -59,7 +58,7 @@ def exchange(solver, heat, solve, most=None, sparing=False):
         if not step.failed and _endless(changes[1:]):
             work[-1].converged = False
             break
-        if change > SLUGGISH * before:
+        if not first:
             heat.relax()
     else:
         work[-1].converged = False

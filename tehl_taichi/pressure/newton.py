@@ -26,7 +26,8 @@ SMALL_MERIT = 1e-2
 RISES = 2
 # and up to here a later round of a step keeps the slopes of the laws: Newton steps and evaluations of the laws a step, 256x64x9
 # at SRR -0.12: never 2.99, 7.5; up to here 2.97, 6.8; up to 0.01, 0.02 and 0.05 2.98, 3.02 and 3.03 Newton steps (64 columns:
-# 3.25, 3.38, 3.44, 3.44, 3.63)
+# 3.25, 3.38, 3.44, 3.44, 3.63). A step that began with a larger change keeps them from its first solve with a smaller one on:
+# window at an exit, equal Newton steps, launches of the linear solve 429 and 359
 SAME_SLOPES = 3e-3
 # Largest row scale in the Krylov norm: the diagonal is about 0.02 in the contact but 1e3 in the inlet. Newton / Krylov per
 # step over the inlet (256x64, to a mass error of 1e-6): no cap 4.2/32, at most 10/111; cap 1 3.7/38, at most 4/50; without
@@ -100,7 +101,7 @@ class PressureSolver:
         self.linear = linear(levels)
         self.inside = levels.inside.astype(levels.linear)
         self.load = levels.scales.load
-        self.H0, self.kept = 0.0, False
+        self.H0, self.kept, self.keeps = 0.0, False, False
         self.border = None  # Inlet whose border follows the film; None: it rests
         self._bind()
 
@@ -159,20 +160,20 @@ class PressureSolver:
                 break
             self.equations.linearise(again=True)
             merit = self.measure()
-        self.kept = self.kept and converged
+        self.kept = converged and (self.kept or (self.keeps and self.change < SAME_SLOPES))
         return SolveReport(merit, self.load_error, self.mass_error, newton, cycles, converged)
 
     @or_not_converged
     def improve(self, keeps=False):
         """One Newton step from a good guess; a small one is not checked, because later steps check it. Returns a SolveReport.
 
-        keeps: reuse expensive data that hardly change, see `RightHandSide.change`.
+        keeps: reuse expensive data that hardly change, see `RightHandSide.change`, here and in later solves.
         """
         numerics, merit = self.levels.scene.numerics, self._begin()
         step, cycles = self._direction(FIRST_ROUND)
         self.change = float(np.abs(step[:-1]).max())
         small = self.change < SMALL_CHANGE
-        self.kept = keeps and small
+        self.keeps, self.kept = keeps, keeps and small
         if small:
             self._move(self._keep(step), step, 1.0)
             self.levels.set_film(self.H0)

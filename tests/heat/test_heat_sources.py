@@ -161,31 +161,6 @@ def test_the_viscosity_follows_every_change_of_the_temperatures():
     assert np.abs(solved - restored).max() > 0.01
 
 
-def test_relaxed_rounds_of_a_linear_exchange_end_at_once():
-    """Rounds that overshoot, x -> x* + g (x - x*): Aitken's second relaxation lands on x* for any g between -4 and 0."""
-    from tehl_taichi.heat import film_tables
-
-    heat, levels = film()
-    X = levels.X[None, None, :]
-    goal, start = 100 + 5 * heat.across.zeta[:, None, None] * np.cos(X), 100 + heat.across.zeta[:, None, None] + 0 * X
-
-    def rounds(g):
-        x = start
-        heat.begin(heat.dt)
-        for _ in range(2):
-            heat.columns.put_nodes(film_tables.LAST, x)
-            heat.set_temperature(goal + g * (x - goal))
-            heat.relax()
-            x = heat.temperature()
-        return x
-
-    for g in (-0.3, -0.8, -2.0):
-        np.testing.assert_allclose(rounds(g), goal, atol=1e-9)
-    # rounds that only crawl are never stretched, and at least a fifth of a change is taken
-    np.testing.assert_allclose(rounds(0.5), goal + 0.25 * (start - goal), atol=1e-9)
-    np.testing.assert_allclose(rounds(-9.0), goal + (-9 + 0.2 * 90) * (start - goal), atol=1e-7)
-
-
 def test_bodies_remember_a_growing_heat():
     """Flux q = t: T = (4/3) t^1.5/(sqrt(pi) e) at every step: new and last flux count each for itself."""
     from tehl_taichi.heat import conduction_modes
