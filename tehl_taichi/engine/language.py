@@ -11,7 +11,7 @@ import linecache
 import os
 import sys
 
-from tehl_taichi.engine.taichi_patches import fast_tracing
+from tehl_taichi.engine.taichi_patches import fast_calls, fast_tracing
 from tehl_taichi.engine.user_folders import give_home
 
 give_home()
@@ -60,5 +60,5 @@ def _ask_less():
 
 attempt(_ask_less)
 if ti.__version__ == fast_tracing.KNOWN and not os.environ.get("TEHL_DEBUG"):
-    for change in (fast_tracing.trees, fast_tracing.nodes, fast_tracing.expressions):
+    for change in (fast_tracing.trees, fast_tracing.nodes, fast_tracing.expressions, fast_calls.calls):
         attempt(change)

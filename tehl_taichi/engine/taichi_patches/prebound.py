@@ -136,7 +136,7 @@ def _set(record, slot, value, annotation):
         if not value.flags.c_contiguous:
             raise ValueError("bound arrays must be contiguous")
         shape = value.shape[: annotation.ndim]  # without the lanes
-        record.set_arg_external_array_with_shape(slot, int(value.ctypes.data), value.nbytes, shape, 0)
+        record.set_arg_external_array_with_shape(slot, value.__array_interface__["data"][0], value.nbytes, shape, 0)
     elif isinstance(value, int):
         record.set_arg_int(slot, value)
     else:
