@@ -7,6 +7,7 @@ import numpy as np
 from tehl_taichi.fatigue import (
     contact_alone,
     depth_search,
+    every_moment,
     index_statistics,
     local_strength,
     material_length,
@@ -115,8 +116,9 @@ def _of_surface(scene, surface, reader, centres, progress, until, alone):
     early, in_depth = _early(passage, until), bool(scene.fatigue.depths)
     progress = PassProgress.of(progress, scene, passage, early)
     layers = [layer(scene, passage, depth, progress, early) for depth in (0.0, *scene.fatigue.listed)]
-    deep = depth_search.search(scene, passage, layers, early, progress) if in_depth else depth_search.DepthResult([], [])
+    deep = depth_search.search(scene, passage, layers, early, progress) if in_depth else depth_search.DepthResult()
     progress.end()
+    layers, deep = every_moment.followed(scene, passage, layers, deep)
     smooth = contact_alone.search(scene, reader, surface) if alone else None
     result = _result(scene, passage, layers, deep, smooth)
     if stressed := _stressed(scene, passage, layers[0], smooth):

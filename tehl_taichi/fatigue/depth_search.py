@@ -5,7 +5,7 @@ First below some rows. On a surface that is not symmetric also below rows with a
 is not always that of the surface: of a scanned bump between two rows of 128x32 cells one row had Fi 1.04, the other 1.85.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -21,8 +21,8 @@ class DepthResult:
     None).
     """
 
-    profiles: list
-    before: list
+    profiles: list = field(default_factory=list)
+    before: list = field(default_factory=list)
     plane: Layer | None = None
     early_plane: EarlyLayer | None = None
 

@@ -6,7 +6,7 @@ finer grid, the averaged one converges (docs/decisions/10-material-length.md).
 
 import numpy as np
 
-from tehl_taichi.fatigue import depth_search, local_strength
+from tehl_taichi.fatigue import depth_search, every_moment, local_strength
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
 from tehl_taichi.fatigue.stress.averaging import averaged_reader
@@ -28,9 +28,10 @@ def part(scene, surface, reader, centres, progress):
     passage.worst, passage.steel = True, False
     progress = PassProgress.of(progress, scene, passage)
     layers = [layer(scene, passage, depth, progress, None) for depth in (0.0, *scene.fatigue.listed)]
-    deep = depth_search.search(scene, passage, layers, None, progress).worst if scene.fatigue.depths else []
+    deep = depth_search.search(scene, passage, layers, None, progress) if scene.fatigue.depths else depth_search.DepthResult()
     progress.end()
-    below = worst_of([found.worst for found in layers[1:]] + deep)
+    layers, deep = every_moment.followed(scene, passage, layers, deep)
+    below = worst_of([found.worst for found in layers[1:]] + deep.worst)
     deepest = {"depth_m": below.depth, **below.summary(), **local_strength.of_point(passage, below)} if below else {}
     return {"length_m": scene.fatigue.length, **layers[0].worst.summary(), **({"below": deepest} if below else {})}
 

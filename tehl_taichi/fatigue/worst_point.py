@@ -13,7 +13,8 @@ AT_ONCE = 512  # points of which some moments are searched
 @dataclass(frozen=True)
 class WorstPoint:
     """depth, x, y (m, in the frame of the feature), Findley stress f (Pa), stress history (times, 6) Pa, the last one unloaded,
-    the unit normal of its critical plane, and the LocalStrength there."""
+    the unit normal of its critical plane, and the LocalStrength there. positions: of the feature at its moments but the last,
+    m, if they are not those of the search."""
 
     depth: float
     x: float
@@ -22,6 +23,7 @@ class WorstPoint:
     stress: np.ndarray
     normal: np.ndarray
     local: LocalStrength
+    positions: np.ndarray | None = None
 
     @property
     def compared(self):
@@ -48,14 +50,16 @@ class WorstPoint:
         return {key: float(value) for key, value in numbers.items()}
 
     def moments(self, centres):
-        """Positions of the feature (m) at the extremes on the critical plane; centres: its positions while loaded, m."""
+        """Positions of the feature (m) at the extremes on the critical plane; centres: its positions in the search, m."""
+        centres = centres if self.positions is None else self.positions
         dip, strike, normal = self.path
         ends, loaded = on_circle(dip, strike, self.circle), centres.size - 1
         at = {"normal_max": int(np.argmax(normal)), "first_shear_extreme": ends[0], "last_shear_extreme": ends[-1]}
         return {f"feature_x_at_{name}_m": float(centres[min(moment, loaded)]) for name, moment in at.items()}
 
     def history(self, centres):
-        """Data for figures and the store: x_a (m), stress, normal, circle."""
+        """Data for figures and the store: x_a (m), stress, normal, circle; centres: as for :meth:`moments`."""
+        centres = centres if self.positions is None else self.positions
         return {"x_a": np.append(centres, np.nan), "stress": self.stress, "normal": self.normal, "circle": self.circle}
 
 

@@ -31,9 +31,15 @@ def _passage(store, window):
     """The ZoomedPassage of a stored window, with the extremes of its stored moments."""
     place = Window.of(store.scene, store.scene.zoom.factor)
     fine = (store.x[1] - store.x[0]) / place.factor
-    origins = np.round((window.lefts - store.x[0]) / fine).astype(int).tolist()
+
+    def origins(lefts):
+        return np.round((lefts - store.x[0]) / fine).astype(int).tolist()
+
     fields = {name: [window.fields(entry, [name])[name] for entry in window.entries] for name in window.names}
-    return ZoomedPassage(place, window.entries.tolist(), origins, fields, {name: window.extremes(name) for name in EXTREMES})
+    at, lefts, parts = window.between
+    return ZoomedPassage(place, window.entries.tolist(), origins(window.lefts), fields,
+                         {name: window.extremes(name) for name in EXTREMES},
+                         list(zip(at.tolist(), origins(lefts), parts)))
 
 
 def _completed(summaries, run):

@@ -28,6 +28,7 @@ FIELDS = {"pressure": ("Pa", "pressure in the zoom window"), "film": ("m", "film
 EARLY = {**dict.fromkeys((coarse_runs.FI, coarse_runs.AVERAGED), coarse_runs.RESOLVED),
          **dict.fromkeys((coarse_runs.BELOW, coarse_runs.AVERAGED_BELOW), coarse_runs.RESOLVED_BELOW)}
 DIMS = ["zoom_moment", "zoom_x", "zoom_y"]
+BETWEEN = "zoom_between"  # dimension of the moments between the steps of the run, and the first part of their names
 
 
 @dataclass
@@ -169,10 +170,25 @@ def _position(saved, entries):
 def arrays(found):
     """{name: (values, dimensions, unit, long name)} of the finest level, for the store."""
     last, w = found[-1].passage, found[-1].passage.window
-    out = {f"zoom_{name}": (np.stack(values), DIMS, *FIELDS[name]) for name, values in last.fields.items() if values}
-    x = found[-1].reader.x
-    out["zoom_entry"] = np.array(last.entries, float), DIMS[:1], "1", "entry of the run at each moment of the zoom"
-    out["zoom_left"] = x[np.array(last.origins, int)], DIMS[:1], "m", "x of the first column of the zoom window"
+    x, rows = found[-1].reader.x, found[-1].reader.y[w.row : w.row + w.ny + 1]
+    stacked = {name: np.stack(values) for name, values in last.fields.items() if values}
+    out = _moments(x, last.entries, last.origins, stacked, "zoom", DIMS[0], "entry of the run at each moment of the zoom")
     out["zoom_x"] = np.arange(w.nx + 1) * (x[1] - x[0]), ["zoom_x"], "m", "distance from the first column of the zoom window"
-    out["zoom_y"] = found[-1].reader.y[w.row : w.row + w.ny + 1], ["zoom_y"], "m", "across, in the zoom window"
+    out["zoom_y"] = rows, ["zoom_y"], "m", "across, in the zoom window"
+    if not last.between:
+        return out
+    at, origins, between = zip(*last.between)
+    stacked = {name: np.stack([one[name] for one in between]) for name in between[0]}
+    return out | _moments(x, at, origins, stacked, BETWEEN, BETWEEN, "moment of the zoom between two entries of the run")
+
+
+def _moments(x, at, origins, stacked, first, dimension, what):
+    """Arrays of some moments of a window, as of :func:`arrays`; their names begin with `first`.
+
+    x: fine columns (m). at: entries of the run, or places between them. stacked: {name: (moments, columns, rows)}. what: long
+    name of `at`.
+    """
+    out = {f"{first}_{name}": (values, [dimension, *DIMS[1:]], *FIELDS[name]) for name, values in stacked.items()}
+    out[f"{first}_entry"] = np.array(at, float), [dimension], "1", what
+    out[f"{first}_left"] = x[np.array(origins, int)], [dimension], "m", "x of the first column of the zoom window"
     return out

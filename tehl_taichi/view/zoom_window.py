@@ -42,6 +42,17 @@ class ZoomWindow:
         """Entry of the run with the largest pressure in the window."""
         return int(self.entries[np.argmax(self.extremes("p_max_Pa"))])
 
+    @property
+    def between(self):
+        """Its moments between the entries: (places between the entries (n,), positions of the first column (n,) m, list of
+        {name: (columns, rows)})."""
+        at = self.store.map("zoom_between_entry")
+        if at is None:
+            return np.zeros(0), np.zeros(0), []
+        found = {name: self.store.map(f"zoom_between_{name}") for name in self.names}
+        parts = [{name: values[n] for name, values in found.items() if values is not None} for n in range(at.size)]
+        return at, self.store.map("zoom_between_left"), parts
+
     def _moments(self, name):
         """A field at all entries, read once."""
         if name not in self.read:

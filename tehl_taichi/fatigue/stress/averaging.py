@@ -68,6 +68,11 @@ class WindowedAverages(AveragedReader):
         self.averaged, self.kept_heat, self.tables = length, reader.kept_heat, reader.tables
         self.at_axis = self.mirrored and self.window.row == 0
 
+    @property
+    def every(self):
+        """The averaged reader of all moments of the window, or None."""
+        return self.reader.every and WindowedAverages(self.reader.every, self.averaged)
+
     def inside(self, n, names):
         """The Inside of entry n, or None."""
         if (found := self.reader.inside(n, names)) is None:

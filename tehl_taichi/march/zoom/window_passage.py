@@ -20,6 +20,7 @@ from tehl_taichi.pressure.storage_term import ORDER, Storage
 from tehl_taichi.values.refining import Refining
 
 SHEAR = "traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b"
+SHOWN = "film", "temperature_mid"  # fields that no stress depends on
 GUESSED = 2  # order of the guess of the pressure
 PAD = 4  # cells of the run around the window whose history is kept: more than the window and the oil move in ORDER steps
 
@@ -63,9 +64,10 @@ class WindowPassage:
     def advance(self, step):
         """Advance from `step` of the run to the next one, in shorter steps where one fails.
 
-        Returns the SolveReports of the steps. If the last one has not converged, the window cannot continue.
+        Returns the SolveReports of the steps. If the last one has not converged, the window cannot continue. `between`:
+        [(moment in steps of the run, first fine column, {name: field})] of its own steps between the two, by :meth:`fields`.
         """
-        done, whole, reports, self.extremes = 0.0, self.window.factor, [], []
+        done, whole, reports, self.extremes, self.between = 0.0, self.window.factor, [], [], []
         while done < whole - 1e-9:
             part = min(self.parts.next(done % 1.0), whole - done)
             report = self._try(step + (done + part) / whole, part)
@@ -73,11 +75,19 @@ class WindowPassage:
             if report.converged:
                 done += part
                 self.parts.accept(part)
+                self._keep(step, done)
             elif not self.parts.reject(part) and not self.parts.hold(self.heat and self.film):
                 return reports
         if self.heat:
             self.heat.refresh(step + 1)
         return reports
+
+    def _keep(self, step, done):
+        """Keep the loads and temperatures of the newest state, `done` steps of the window after `step` of the run, if it lies
+        between two of the run's steps and whole steps of the window led there."""
+        if done < self.window.factor - 1e-9 and abs(done - round(done)) < 1e-9:
+            loads = {name: field for name, field in self.fields().items() if name not in SHOWN}
+            self.between.append((step + round(done) / self.window.factor, self.origin, loads))
 
     def _try(self, at, part):
         """Solve the state at a moment `at` of the run (in its steps), `part` of a window's step after the last accepted one.
@@ -106,11 +116,12 @@ class WindowPassage:
         return exchange(self.solver, self.film, pressure, rounds(self.scene, part), sparing=True)
 
     def fields(self):
-        """{name: (ny+1, nx+1)} of the newest state, SI units."""
+        """{name: (nx+1, ny+1) f4} of the newest state, SI units."""
         v, s = self.levels, self.levels.scales
         shear = dict(zip(SHEAR, self.film.tractions()))
         warm = self.heat.fields() if self.heat else {}
-        return {"pressure": v.get(fields.P) * s.p_H, "film": v.get(fields.H) * s.h, **shear, **warm}
+        found = {"pressure": v.get(fields.P) * s.p_H, "film": v.get(fields.H) * s.h, **shear, **warm}
+        return {name: np.ascontiguousarray(field.T, np.float32) for name, field in found.items()}
 
     def numbers(self, step):
         """{name: number} over all moments since the last step of the run.

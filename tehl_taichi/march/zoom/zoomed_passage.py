@@ -17,8 +17,9 @@ class ZoomedPassage:
     """Results of a window at the steps of the run.
 
     entries: numbers of the run's entries (from 1 on). origins: first fine column of the window at each. fields: {name: list of
-    (nx+1, ny+1) f4, SI units}. numbers: {name: list}, extremes of the run with the window. ended: reason why it stopped before
-    its last step, or "". newton, cycles, attempts: Newton steps, linear iterations, time steps.
+    (nx+1, ny+1) f4, SI units}. numbers: {name: list}, extremes of the run with the window. between: moments between these
+    entries, as :attr:`tehl_taichi.march.zoom.window_passage.WindowPassage.between`. ended: reason why it stopped before its
+    last step, or "". newton, cycles, attempts: Newton steps, linear iterations, time steps.
     """
 
     window: Window
@@ -26,17 +27,18 @@ class ZoomedPassage:
     origins: list = field(default_factory=list)
     fields: dict = field(default_factory=dict)
     numbers: dict = field(default_factory=dict)
+    between: list = field(default_factory=list)
     ended: str = ""
     newton: int = 0
     cycles: int = 0
     attempts: int = 0
 
     def add(self, entry, origin, values, numbers):
-        """Add the results at one entry; values: {name: (ny+1, nx+1)}."""
+        """Add the results at one entry; values: {name: (nx+1, ny+1)}."""
         self.entries.append(entry)
         self.origins.append(origin)
         for name, value in values.items():
-            self.fields.setdefault(name, []).append(np.ascontiguousarray(value.T, np.float32))
+            self.fields.setdefault(name, []).append(value)
         for name, number in numbers.items():
             self.numbers.setdefault(name, []).append(number)
 
@@ -76,6 +78,7 @@ def _advance(march, found, step):
     found.count(reports)
     if reports[-1].converged:
         found.add(step + 1, march.origin, march.fields(), march.numbers(step + 1))
+        found.between += march.between
     else:
         found.ended = f"it did not converge with the feature at {march.base.position(step + 1):.2f} a"
 

@@ -1,5 +1,7 @@
 """Reader of a run with its window, as one run on the fine grid, for the fatigue search."""
 
+import functools
+
 import numpy as np
 
 from tehl_taichi.fatigue.stress.kept_tables import KeptTables
@@ -25,27 +27,37 @@ class ZoomedReader:
         self.x, self.y = (_between(side, w.factor) for side in (reader.x, reader.y))
         self.place = {entry: n for n, entry in enumerate(zoomed.entries)}
         self.refining = Refining((0, 0), (self.y.size, self.x.size), w.factor, (len(reader.y), len(reader.x)), mirrored)
-        self.series = {name: np.array(reader.scalar(name), float) for name in EXTREMES}
-        for entry in zoomed.entries:
-            self._take_extremes(entry)
-        for name in zoomed.numbers.keys() - EXTREMES.keys():
-            self.series[name] = np.array(reader.scalar(name), float)
-            self.series[name][zoomed.entries] = zoomed.numbers[name]
-
     def __len__(self):
         return len(self.base)
+
+    @functools.cached_property
+    def every(self):
+        """The ZoomedReader of all moments of the window, also between the steps of the run; None without any."""
+        from tehl_taichi.march.zoom.every_moment import every_moment
+
+        return every_moment(self)
+
+    @functools.cached_property
+    def series(self):
+        """{name: (entries,)} of the numbers that a window changes."""
+        out = {name: np.array(self.base.scalar(name), float) for name in {**EXTREMES, **self.zoomed.numbers}}
+        for entry in self.zoomed.entries:
+            self._take_extremes(out, entry)
+        for name in self.zoomed.numbers.keys() - EXTREMES.keys():
+            out[name][self.zoomed.entries] = self.zoomed.numbers[name]
+        return out
 
     def scalar(self, name):
         """Values of a number, one per entry."""
         return self.series[name] if name in self.series else self.base.scalar(name)
 
-    def _take_extremes(self, n):
+    def _take_extremes(self, series, n):
         """Set the largest pressure and the smallest film of entry n: of the window since the last entry, of the run outside."""
         at = self.place[n]
         outside = self.zoomed.window.outside(self.zoomed.origins[at]).T
         run = self.base.fields(n, tuple(field for field, _ in EXTREMES.values()))
         for name, (field, extreme) in EXTREMES.items():
-            self.series[name][n] = extreme([extreme(run[field][outside]), self.zoomed.numbers[name][at]])
+            series[name][n] = extreme([extreme(run[field][outside]), self.zoomed.numbers[name][at]])
 
     def fields(self, n, names):
         """{name: (fine nodes along x, fine nodes along y)} of entry n, SI units."""

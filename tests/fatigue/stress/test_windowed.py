@@ -1,10 +1,13 @@
 """Stresses of a run with a window, against those of the same loads and temperatures on the fine grid of the whole contact."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import depth_profile
+from tehl_taichi.fatigue import depth_profile, depth_search, every_moment, findley
+from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.stress.averaging import AveragedReader, averaged_reader
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
@@ -71,8 +74,8 @@ class Whole:
         return self.reader.fields(n, names)
 
 
-def zoomed(scene, factor=FACTOR, since=1):
-    """The ZoomedReader of these loads with a window from entry `since` on."""
+def zoomed(scene, factor=FACTOR, since=1, between=False):
+    """The ZoomedReader of these loads with a window from entry `since` on; between: also at moments between the entries."""
     s, w = Scales.of(scene), Window.of(scene, factor)
     grid = scene.grid
     x = np.linspace(grid.x_min, grid.x_max, grid.nx + 1) * s.a
@@ -81,10 +84,16 @@ def zoomed(scene, factor=FACTOR, since=1):
     run = Loads(scene, x, y, False)
     fine = Loads(scene, *(np.interp(np.arange((p.size - 1) * factor + 1) / factor, np.arange(p.size), p) for p in (x, y)), True)
     found = ZoomedPassage(w)
-    for n in range(since, len(run)):
+
+    def inside(n):
         origin = w.origin(run.feature_x(n) / s.a)
         part = np.ix_(np.arange(origin, origin + w.nx + 1), np.arange(w.row, w.row + w.ny + 1))
-        values = {name: field[part].T for name, field in fine.fields(n, (*NAMES, "film")).items()}
+        return origin, {name: field[part] for name, field in fine.fields(n, (*NAMES, "film")).items()}
+
+    for n in range(since, len(run)):
+        if between and n > since:
+            found.between += [(at, *inside(at)) for at in n - 1 + np.arange(1, factor) / factor]
+        origin, values = inside(n)
         found.add(n, origin, values, {"p_max_Pa": values["pressure"].max(), "h_min_m": values["film"].min()})
     return ZoomedReader(run, found, scene.symmetric)
 
@@ -173,3 +182,48 @@ def test_only_the_points_that_are_wanted_are_searched():
     x, y = (np.flatnonzero(np.isin(*pair)) for pair in ((whole.x, passage.x), (whole.y, passage.y)))
     top, own = top.reshape(x.size, y.size, -1, 6), all_top.reshape(whole.x.size, whole.y.size, -1, 6)[np.ix_(x, y)]
     assert top.shape == own.shape and np.abs(top - own).max() < 1e-6 * MOST  # followed as far as where all are searched
+
+
+@pytest.mark.parametrize("surface, share", [("a", 0.8), ("b", 0.3)])  # points of a move with the feature, so they feel little
+def test_critical_points_are_followed_between_the_steps_of_the_run(surface, share):
+    scene = GEAR.replace(srr=-1.2)
+    reader = zoomed(scene, 4, since=3, between=True)
+    whole = Whole(reader.every)
+    centres = np.array([reader.feature_x(n) for n in range(len(reader))])
+    body = scene.surfaces["ab".index(surface)]
+    passage = StressHistories(scene, reader, centres, surface=body)
+    layers = [layer(scene, passage, 0.0, lambda done, total: None, None)]
+    deep = depth_search.DepthResult(depth_profile.profiles(passage, [0]))
+    (top,), below = every_moment.followed(scene, passage, layers, deep)
+    for old, new in ((layers[0].worst, top.worst), (deep.profiles[0].worst, below.profiles[0].worst)):
+        fine = np.array([whole.feature_x(n) for n in range(len(whole))])
+        whole.searched = {surface: every_moment._box(passage, [new])}
+        there = StressHistories(scene, whole, fine, surface=body)
+        row = int(np.argmin(np.abs(there.reader.y - new.y)))
+        stress = histories_of(there, [new.depth], [(row, False)])[0][0, 0]
+        same = np.abs(there.positions[:, None] - new.positions).argmin(axis=0)
+        steps = slice(1, None)  # the first moment, of an unloaded point, lies a little further out
+        assert np.abs(there.positions[same] - new.positions)[steps].max() < 1e-9
+        error = np.abs(stress[same] - new.stress[:-1])[steps].max()
+        between = every_moment.between(passage.positions, old.stress[:-1], new.positions)  # as if nothing were computed there
+        assert error < 0.02 * np.abs(stress).max() and error < share * np.abs(stress[same] - between)[steps].max()
+        f = float(findley.search(stress[None], new.local.kappa)[0][0])
+        assert new.f >= old.f and abs(new.f - f) < 0.01 * f
+    assert top.f.max() == top.worst.f > layers[0].worst.f
+
+
+def test_without_moments_between_the_steps_a_search_stays_as_it_is():
+    reader = zoomed(GEAR)
+    assert reader.every is None
+    passage = SimpleNamespace(reader=reader)
+    assert every_moment.followed(GEAR, passage, [1], 2) == ([1], 2)
+
+
+def test_values_between_known_ones_are_those_of_a_cubic():
+    known, at = np.array([0.0, 1.0, 3.0, 4.0, 6.0, 6.5]), np.linspace(-0.5, 7.0, 40)
+
+    def cubic(x):
+        return np.stack([x**3 - 2 * x, 1 + 0.5 * x**2], axis=-1)
+
+    assert np.allclose(every_moment.between(known, cubic(known), at), cubic(at), rtol=1e-12, atol=1e-11)
+    assert np.allclose(every_moment.between(known[:2], known[:2, None], at)[:, 0], at)

@@ -170,6 +170,18 @@ def test_numbers_are_those_of_all_moments_between_two_steps_of_the_run(runs, mon
     assert (p[:, 0] > p[:, 1]).any() and (h[:, 0] < h[:, 1]).any()
 
 
+def test_states_between_the_steps_of_the_run_are_kept_at_whole_steps_of_the_window(runs, monkeypatch):
+    failing(monkeypatch, lambda n: n == 61)
+    found = passage(*runs(0.0), 4)
+    moments = [at for at, _, _ in found.between]
+    assert moments == [n + part for n in range(len(found.entries)) for part in (0.25, 0.5, 0.75)]
+    first, last = (found.fields["pressure"][n] for n in (29, 30))
+    tops = [fields["pressure"].max() for at, _, fields in found.between if 30 < at < 31]
+    assert len(tops) == 3 and min(first.max(), last.max()) * 0.999 < min(tops)
+    assert max(*tops, last.max()) <= found.numbers["p_max_Pa"][30] * (1 + 1e-6)
+    assert set(found.between[0][2]) == {"pressure", *window_passage.SHEAR}
+
+
 def test_progress_counts_the_steps_of_the_run(runs):
     seen = []
     scene, reader = runs(0.0)

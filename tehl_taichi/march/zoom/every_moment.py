@@ -1,0 +1,60 @@
+"""Reader of a run with its window at all moments of the window, also between the steps of the run."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from tehl_taichi.march.zoom.base_states import POINTS
+from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
+from tehl_taichi.values.interpolation import lagrange
+
+
+class BetweenSteps:
+    """Reader of a run at some of its moments (n,), numbers of steps that may have a fraction, in rising order.
+
+    Fields between steps are those that drive a window: polynomials in time through POINTS steps.
+    """
+
+    def __init__(self, run, moments):
+        self.run, self.moments, self.x, self.y = run, np.asarray(moments, float), run.x, run.y
+        self.time = np.interp(self.moments, np.arange(len(run)), run.time)
+        self.residual_fields = getattr(run, "residual_fields", {})
+
+    def __len__(self):
+        return len(self.moments)
+
+    def feature_x(self, n):
+        """Centre of the feature (m) at entry n."""
+        return sum(weight * self.run.feature_x(step) for step, weight in self._steps(n, 2))
+
+    def fields(self, n, names):
+        """{name: (nx+1, ny+1) array} of entry n, SI units."""
+        parts = [(weight, self.run.fields(step, names)) for step, weight in self._steps(n, POINTS)]
+        if len(parts) == 1:
+            return parts[0][1]
+        return {name: sum(weight * np.asarray(found[name], float) for weight, found in parts) for name in names}
+
+    def _steps(self, n, points):
+        """[(step, weight)] of the polynomial for entry n; one step if the entry is a step."""
+        at, points = self.moments[n], min(points, len(self.run))
+        if abs(at - round(at)) < 1e-9:
+            return [(round(at), 1.0)]
+        first = min(max(int(at) - points // 2 + 1, 0), len(self.run) - points)
+        return list(zip(range(first, first + points), lagrange(range(first, first + points), at)))
+
+
+def every_moment(reader):
+    """The ZoomedReader of the same run and window with all moments of the window, or None if it has none between steps."""
+    zoomed = reader.zoomed
+    if not zoomed.between:
+        return None
+    own = [(float(entry), origin, {name: values[n] for name, values in zoomed.fields.items()})
+           for n, (entry, origin) in enumerate(zip(zoomed.entries, zoomed.origins))]
+    own = sorted(own + zoomed.between, key=lambda one: one[0])
+    moments = np.union1d(np.arange(len(reader), dtype=float), [at for at, _, _ in own])
+    names = zoomed.between[0][2]
+    passage = replace(zoomed, entries=[int(n) for n in np.searchsorted(moments, [at for at, _, _ in own])], between=[],
+                      origins=[origin for _, origin, _ in own], fields={name: [one[2][name] for one in own] for name in names})
+    out = ZoomedReader(BetweenSteps(reader.base, moments), passage, reader.refining.mirrored)
+    out.tables = reader.tables
+    return out
