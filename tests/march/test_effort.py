@@ -14,7 +14,8 @@ from tehl_taichi.scene import scene
 # A start agrees upon the pressure of its border with the film: 74, 61 and 37 Krylov iterations without (grid.inlet = starved)
 COUNTS = {
     "gear, isothermal": ((5, 82), (2.13, 13.9)),
-    "gear, thermal": (None, (3.06, 19.7)),  # 22.1 with the flow by the secant of the law
+    # 22.1 with the flow by the secant of the law; 3.06, 19.7 where columns of the film are not solved for to the end
+    "gear, thermal": (None, (3.19, 21.3)),
     "touching asperity": ((5, 69), (3.27, 18.4)),
     "steady circle": ((4, 36), None),
     "ridge on ball": ((4, 36), (2.38, 12.8)),
@@ -22,8 +23,9 @@ COUNTS = {
     # 2.54, 8.6; with the flow by the secant 2.26, 7.8; slopes by tangents alone, where the exact flow switches as the ridge
     # leaves, 4.27, 15.4 (docs/decisions/01-sheared-flow.md)
     "ridge that leaves, walls yield": ((4, 75), (2.55, 9.8)),
-    # guesses that do not move 4.21, 14.4; pressures solved for to the end in every round, too, 4.7, 16.1
-    "ridge that leaves, with temperatures": (None, (3.44, 11.7)),
+    # guesses that do not move 4.21, 14.4; pressures solved for to the end in every round, too, 4.7, 16.1, while temperatures
+    # change by less than 12 K 3.44, 11.7
+    "ridge that leaves, with temperatures": (None, (2.95, 10.8)),
 }
 WITHIN = 0.10  # the precision of the linear solves moves them by 2 %
 
@@ -145,9 +147,9 @@ class Solves:
 
 
 @pytest.mark.parametrize("change, improved, residuals, temperatures, asked", [
-    (0.01, 1e-2, [1e-7], [3.0, 0.01], "improve heat solve heat"),
-    (0.3, 1e-4, [1e-7], [3.0, 0.01], "improve heat solve heat"),
-    (0.3, 1e-2, [1e-4, 1e-7], [3.0, 0.01], "improve roughly heat solve heat"),
+    (0.01, 1e-2, [1e-7], [0.6, 0.01], "improve heat solve heat"),
+    (0.3, 1e-4, [1e-7], [0.6, 0.01], "improve heat solve heat"),
+    (0.3, 1e-2, [1e-4, 1e-7], [0.6, 0.01], "improve roughly heat solve heat"),
     (0.01, 1e-2, [1e-4, 1e-7], [30.0, 0.01, 0.01], "improve heat roughly heat solve heat"),
     (0.01, 1e-2, [1e-7], [30.0, 0.01], "improve heat roughly heat"),  # rough is as good here
     (0.01, 1e-2, [1e-2, 1e-7], [30.0, 0.01], "improve heat roughly solve heat"),  # and here no help

@@ -12,7 +12,7 @@ from tehl_taichi.march.zoom.two_frames import TwoFrames
 
 WHOLE = 1e-9  # cells: smaller differences from a whole number count as zero
 HOTTER = 20.0  # K: largest rise above the last state in a guess
-ORDER = 2  # order of the extrapolation in time
+ORDER = 3  # order of the extrapolation in time
 
 
 class WindowHeat:
