@@ -4,6 +4,7 @@ They are written without zarr, which takes 2 ms to describe an array and 5 ms to
 writes its table again and again.
 """
 
+import functools
 import json
 import math
 from pathlib import Path
@@ -44,7 +45,13 @@ def _fill(kind, fill):
 
 def content(description):
     """Bytes of the metadata file of an array."""
-    return json.dumps(description, indent=2).encode()
+    return _indented(json.dumps(description))
+
+
+@functools.lru_cache(maxsize=1000)
+def _indented(text):
+    """JSON text as zarr writes it. Kept: it takes 0.1 ms, and the stores of a study have the same ones."""
+    return json.dumps(json.loads(text), indent=2).encode()
 
 
 def chunk_file(folder, dimensions):

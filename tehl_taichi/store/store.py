@@ -50,7 +50,7 @@ class Store(LockedFolder, Reader):
         try:
             with _disk_errors(place.folder, "nothing is stored", Error):
                 store = cls._create(place, scene, snapshot, capacity, attrs or {})
-                store._append(snapshot, snapshot.state)
+                store._append(snapshot, snapshot.state, put=files.write)  # nobody reads it yet
             place.publish()
         except BaseException:
             place.give_up()
@@ -109,7 +109,7 @@ class Store(LockedFolder, Reader):
             self._commit(steps=1)
             checkpoint.remove_others(self.path / CHECKPOINTS, 1)
 
-    def _append(self, snapshot, state, shown=True):
+    def _append(self, snapshot, state, shown=True, put=files.replace):
         n = self.steps
         for name, dtype in self.stored.items():  # what readers do not see yet needs no care
             files.write(self._file(name, n), chunks.compressed(snapshot.fields[name], "<" + dtype))
@@ -120,13 +120,13 @@ class Store(LockedFolder, Reader):
         if state:
             checkpoint.write(self.path / CHECKPOINTS, n + 1, state)
         if state or shown:
-            self._show()
+            self._show(put)
         if state:
             checkpoint.remove_others(self.path / CHECKPOINTS, n + 1)
 
-    def _show(self):
+    def _show(self, put=files.replace):
         for name, series in self.series.items():
-            files.replace(self.path / name / "c" / "0", chunks.compressed(series, "<" + series.dtype.str[1:]))
+            put(self.path / name / "c" / "0", chunks.compressed(series, "<" + series.dtype.str[1:]))
         self._commit(steps=self.steps)
 
     def safely(self):
