@@ -50,7 +50,7 @@ class Store(LockedFolder, Reader):
         try:
             with _disk_errors(place.folder, "nothing is stored", Error):
                 store = cls._create(place, scene, snapshot, capacity, attrs or {})
-                store._append(snapshot, snapshot.state, put=files.write)  # nobody reads it yet
+                store._append(snapshot, snapshot.state, put=files.write)  # it has no reader yet
             place.publish()
         except BaseException:
             place.give_up()
