@@ -38,9 +38,9 @@ def run(
     steady: bool = typer.Option(False, "--steady", help="compute the steady contact only"),
     thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
     fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
-    zoom: Any = typer.Option(None, parser=whole_or_auto, metavar="2|4|8|auto",
-                             help="add a fine window that moves with the feature, 2, 4 or 8 times as fine as the grid; auto: "
-                                  "no window if the grid suffices, otherwise the first factor that does"),
+    zoom: Any = typer.Option(None, parser=whole_or_auto, metavar="2|4|8|16|auto",
+                             help="add a fine window that moves with the feature, 2, 4, 8 or 16 times as fine as the grid; "
+                                  "auto: no window if the grid suffices, otherwise the first factor that does"),
     run_in: Optional[int] = typer.Option(None, help="largest number of run-in passages before the stored passage; steel "
                                                     "of bodies with a yield stress can yield in them"),
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
@@ -129,8 +129,8 @@ def resume(
 
 def zoom(
     store: Path = typer.Argument(..., help="store of a finished run with a passage"),
-    factor: Any = typer.Option("4", parser=whole_or_auto, metavar="0|2|4|8|auto",
-                               help="cells of the window in a cell of the grid: 2, 4 or 8; 0 removes the window; auto: no "
+    factor: Any = typer.Option("4", parser=whole_or_auto, metavar="0|2|4|8|16|auto",
+                               help="cells of the window in a cell of the grid: 2, 4, 8 or 16; 0 removes the window; auto: no "
                                     "window if the grid suffices, otherwise the first factor that does"),
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),

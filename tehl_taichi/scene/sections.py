@@ -437,7 +437,7 @@ class Zoom:
     Zoom(factor=4)
     """
 
-    factor: int = count_of(0, "cells of the window in a cell of the grid, along each axis; 0: no window", 0, 2, 4, 8)
+    factor: int = count_of(0, "cells of the window in a cell of the grid, along each axis; 0: no window", 0, 2, 4, 8, 16)
     width_x: float = quantity(0.0, "a", "width of the window along x; 0: as the feature needs", 0.0, 4.0, usual=0.8,
                               least=0.1)
     width_y: float = quantity(0.0, "a", "width of the window along y; 0: as the feature needs", 0.0, 8.0, usual=0.8,

@@ -7,7 +7,7 @@ from tehl_taichi.values.refining import Refining, matrix
 
 
 @pytest.mark.parametrize("points, degree", [(2, 1), (4, 3), (6, 5)])
-@pytest.mark.parametrize("factor", [2, 4, 8])
+@pytest.mark.parametrize("factor", [2, 4, 8, 16])
 def test_polynomials_come_out_exactly(points, degree, factor):
     x = np.arange(12.0)
     fine = np.arange(11 * factor + 1) / factor
