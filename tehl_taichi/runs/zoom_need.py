@@ -1,10 +1,13 @@
 """Need of a finished run for a fine window, and the factors to try."""
 
+import numpy as np
+
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.scene import resolution
 
 FACTORS = 4, 8  # of windows to try in turn; a window of half the factor runs with each, for the error bars
 SLOWER = 2.3  # time per node and step of a window over that of the run (gear with temperatures, 256x64, SRR 0.12, factor 4)
+DEEP, SAMPLES = 0.01, 65  # depth of a hollow, over the largest height or depth of its feature; places looked at along an axis
 DECIDING = {"p_max_Pa": "the largest pressure", "h_min_m": "the smallest film"}  # numbers whose error a window may determine
 
 
@@ -29,8 +32,8 @@ def work(store, factor):
     from tehl_taichi.march.zoom.window import Window
     from tehl_taichi.march.zoom.zoomed_passage import LEAD
 
-    scene, (begin, end), place = store.scene, store.scene.path, until(store)
-    part = 1.0 if place is None else min((end - place + LEAD) / (end - begin), 1.0)
+    scene, (first, end), place = store.scene, store.scene.path, begin(store)
+    part = 1.0 if place is None else min((end - place + LEAD) / (end - first), 1.0)
     cells = scene.grid.nx * max(scene.rows, 1)
     windows = [Window.of(scene, one) for one in levels(factor)]
     return 1.0 + part * SLOWER * sum(w.factor * w.nx * max(w.ny, 1) for w in windows) / cells
@@ -44,6 +47,26 @@ def levels(factor):
 def until(store):
     """Position (a) of the feature up to which a run needs no window; None if it needs one everywhere, or nowhere."""
     return None if few_cells(store.scene) else coarse_runs.resolved(store.scene, store, store.scalar)
+
+
+def begin(store):
+    """Position (a) of the feature shortly before which windows begin; None: with the passage.
+
+    A hollow takes oil in at the inlet and keeps it: the window must see it enter.
+    """
+    return None if holds_oil(store.scene) else until(store)
+
+
+def holds_oil(scene):
+    """Whether features of the surface that a window follows have places below the smooth surface."""
+    return any(heights.min() < -DEEP * np.abs(heights).max() for heights in map(_heights, scene.reference.features))
+
+
+def _heights(f):
+    """Heights (SAMPLES, SAMPLES or 1) m of a feature over its extent."""
+    x = np.linspace(-f.reach, f.reach, SAMPLES)[:, None]
+    y = np.linspace(-f.reach_y, f.reach_y, SAMPLES) if 0 < f.reach_y < np.inf else np.zeros(1)
+    return f.height_at(x, y[None, :])
 
 
 def few_cells(scene):

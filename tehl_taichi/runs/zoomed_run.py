@@ -59,7 +59,7 @@ def levels(saved, progress):
     factors = zoom_need.levels(scene.zoom.factor)
     progress.stage(ZOOM, 0, len(saved) - 1)
     found = zoomed_passage.passages(scene, saved, factors, functools.partial(progress.stage, ZOOM),
-                                    zoom_need.until(saved))
+                                    zoom_need.begin(saved))
     saved.kept_states = None
     run = ReadOnce(saved)
     return [ZoomLevel(one, ZoomedReader(run, one, scene.symmetric, worst=one is not found[-1])) for one in found]

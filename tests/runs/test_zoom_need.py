@@ -37,6 +37,23 @@ def test_few_cells_and_sharp_peaks_need_one(monkeypatch, changes, resolved, word
     assert zoom_need.reason(finished(SCENE.replace(**changes), resolved, monkeypatch=monkeypatch)) == words
 
 
+@pytest.mark.parametrize("changes, hollow", [({}, False), ({"feature.height": -1.5e-6}, True),
+                                             ({"feature.shape": "furrow", "feature.height": -1e-6}, True)])
+def test_windows_see_the_oil_enter_a_hollow(monkeypatch, changes, hollow):
+    """A late window of a rolling dent has 2.979 GPa, one over the whole passage 3.045, a whole fine grid 3.042."""
+    scene = tehl.scene("gear").replace(**{"feature.width": 4e-4, **changes})
+    run = finished(scene, 0.5, monkeypatch=monkeypatch)
+    assert zoom_need.holds_oil(scene) is hollow
+    assert zoom_need.begin(run.store) == (None if hollow else 0.5)
+
+
+def test_the_work_of_a_window_counts_from_where_it_begins(monkeypatch):
+    bump, dent = (zoom_need.work(finished(tehl.scene("gear").replace(height=height), 0.5, monkeypatch=monkeypatch).store, 4)
+                  for height in (1.5e-6, -1.5e-6))
+    begin, end = tehl.scene("gear").path
+    assert (dent - 1) / (bump - 1) == pytest.approx((end - begin) / (end - 0.1), rel=1e-9)
+
+
 class Said(Progress):
     """Keeps what is said."""
 
