@@ -18,6 +18,7 @@ from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import worst_of
 
+SAME = 1e-12  # m: moments whose features are closer to each other are one
 POINTS = 4  # moments of the run that a polynomial uses
 
 
@@ -63,13 +64,22 @@ def _raised(layer):
 def _at_all_moments(scene, passage, reader, points):
     """The WorstPoints `points` of a search with their histories, values and planes by all moments of `reader`."""
     centres = np.array([reader.feature_x(n) for n in range(len(reader))])
+    new = np.abs(centres[:, None] - passage.positions).min(axis=1) > SAME
+    if not (new := new & (centres > passage.positions[0]) & (centres < passage.positions[-1])).any():
+        return points
     reader.searched = {passage.surface.name: _box(passage, points)}
-    loads = StressHistories(scene.replace(**{"fatigue.thermal_stress": False}), reader, centres, surface=passage.surface)
+    loads = StressHistories(_of_loads(scene, passage, centres[new][0]), reader, centres, surface=passage.surface)
     depths = sorted({point.depth for point in points})
     rows = sorted({int(np.argmin(np.abs(loads.reader.y - point.y))) for point in points})
     found = histories_of(loads, depths, [(row, False) for row in rows])
     return [_improved(point, passage.positions, loads.positions, _history(loads, found, depths, rows, point))
             for point in points]
+
+
+def _of_loads(scene, passage, start):
+    """The scene without thermal stress, from POINTS steps of the run before the position `start` (m) of the feature on."""
+    first = passage.positions[passage.positions < start][-POINTS:][0] / passage.a - 1e-9
+    return scene.replace(**{"fatigue.thermal_stress": False, "fatigue.from_x": max(float(first), scene.fatigue.from_x)})
 
 
 def _box(passage, points):
@@ -92,16 +102,20 @@ def _improved(point, steps, moments, history):
     """A WorstPoint by all moments up to its last one.
 
     steps, moments: positions of the feature (m), without the unloaded moment, of the search and of the `history` (moments + 1,
-    6) Pa of the loads.
+    6) Pa of the loads, which begins later.
     """
     steps = steps[: len(point.stress) - 1]
-    moments = moments[moments <= steps[-1] * (1 + 1e-12) + 1e-12]
-    same = np.abs(moments[:, None] - steps).argmin(axis=0)
-    rest = point.stress[:-1] - history[same]
-    stress = np.concatenate([history[: moments.size] + between(steps, rest, moments), point.stress[-1:]])
-    stress[same] = point.stress[:-1]
+    away = np.abs(moments[:, None] - steps)
+    same, new = away.argmin(axis=0), np.flatnonzero((away.min(axis=1) > SAME) & (moments < steps[-1]))
+    known = away.min(axis=0) <= SAME
+    if not new.size:
+        return point
+    rest = between(steps[known], (point.stress[:-1] - history[same])[known], moments[new])
+    positions = np.concatenate([steps, moments[new]])
+    order = np.argsort(positions)
+    stress = np.concatenate([np.concatenate([point.stress[:-1], history[new] + rest])[order], point.stress[-1:]])
     f, normals = findley.search(stress[None], point.local.kappa, criterion=point.local.criterion)
-    return replace(point, f=max(float(f[0]), point.f), stress=stress, normal=normals[0], positions=moments)
+    return replace(point, f=max(float(f[0]), point.f), stress=stress, normal=normals[0], positions=positions[order])
 
 
 def between(known, values, at):

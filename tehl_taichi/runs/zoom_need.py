@@ -1,13 +1,10 @@
 """Need of a finished run for a fine window, and the factors to try."""
 
-import numpy as np
-
 from tehl_taichi.march.accuracy import coarse_runs
-from tehl_taichi.scene import resolution
+from tehl_taichi.scene import resolution, zoom_room
 
 FACTORS = 4, 8  # of windows to try in turn; a window of half the factor runs with each, for the error bars
 SLOWER = 2.3  # time per node and step of a window over that of the run (gear with temperatures, 256x64, SRR 0.12, factor 4)
-DEEP, SAMPLES = 0.01, 65  # depth of a hollow, over the largest height or depth of its feature; places looked at along an axis
 DECIDING = {"p_max_Pa": "the largest pressure", "h_min_m": "the smallest film"}  # numbers whose error a window may determine
 
 
@@ -54,19 +51,7 @@ def begin(store):
 
     A hollow takes oil in at the inlet and keeps it: the window must see it enter.
     """
-    return None if holds_oil(store.scene) else until(store)
-
-
-def holds_oil(scene):
-    """Whether features of the surface that a window follows have places below the smooth surface."""
-    return any(heights.min() < -DEEP * np.abs(heights).max() for heights in map(_heights, scene.reference.features))
-
-
-def _heights(f):
-    """Heights (SAMPLES, SAMPLES or 1) m of a feature over its extent."""
-    x = np.linspace(-f.reach, f.reach, SAMPLES)[:, None]
-    y = np.linspace(-f.reach_y, f.reach_y, SAMPLES) if 0 < f.reach_y < np.inf else np.zeros(1)
-    return f.height_at(x, y[None, :])
+    return None if zoom_room.holds_oil(store.scene) else until(store)
 
 
 def few_cells(scene):

@@ -4,15 +4,16 @@ import contextlib
 from typing import NamedTuple
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import idle_keys, resolution
+from tehl_taichi.scene import idle_keys, resolution, zoom_room
 from tehl_taichi.scene.resolution import ENOUGH, FEWEST
 from tehl_taichi.scene.scales import Scales
 
-WORK = 8.0  # of a passage over that on the grid of the scene, that is still chosen by itself: minutes in place of a minute
+WORK = 10.0  # of a passage over that on the grid of the scene, that is still chosen by itself: minutes in place of a minute
 FACTORS = 0, 4, 8  # of a window; 0: none
-# Work of a run with a window over that of the run: it is marched up to twice again beside the window, whose nodes and steps are
-# as many times as fine, on a part of the passage (tehl run gear --zoom 4 at SRR 0.12: five times)
-AGAIN, PART, BESIDE = 3.0, 0.4, (0.5, 0.3)  # BESIDE: a, of the window to each side of the features
+# Work of a run with a window over that of the run: both windows start and are searched, and take as many nodes and steps as
+# they are finer, on a PART of the passage, or on the WHOLE one where a hollow holds oil (tehl run gear --zoom 4: an asperity at
+# SRR 0.12 four times, a dent at SRR -0.12 8.5 times)
+AGAIN, PART, WHOLE, BESIDE = 2.0, 0.4, 0.75, (0.5, 0.3)  # BESIDE: a, of the window to each side of the features
 AIMS = ENOUGH, 8, FEWEST  # cells of the smallest length
 COLUMNS, ROWS = (128, 64), (32, 16)  # (least, multiple) of a grid that is chosen
 KEYS = "grid.nx", "grid.ny", "zoom.factor"
@@ -81,7 +82,8 @@ def _window_work(scene, factor):
     domain = (g.x_max - g.x_min) / 2, g.y_max * s.b / s.a
     shares = [min((max(f.reach, f.reach_y) / s.a + beside) / half, 1.0) for f in scene.features
               for half, beside in zip(domain, BESIDE)]
-    return AGAIN + PART * max(shares[::2]) * max(shares[1::2]) * factor**3 if factor else 1.0
+    part = WHOLE if zoom_room.holds_oil(scene) else PART
+    return AGAIN + part * max(shares[::2]) * max(shares[1::2]) * factor**3 if factor else 1.0
 
 
 def _work(nx, ny):

@@ -1,12 +1,16 @@
-"""Space for the zoom window around the features of a scene."""
+"""Space and time for the zoom window around the features of a scene."""
 
 import math
+
+import numpy as np
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.scales import Scales
 
 WIDEST = 1.5  # a, of the features along x
 BESIDE, CELLS = 0.05, 5  # a, and cells of the grid, at least, between the features and the end of the grid across
+
+DEEP, SAMPLES = 0.01, 65  # depth of a hollow, over the largest height or depth of its feature; places looked at along an axis
 
 
 def check(scene):
@@ -44,6 +48,18 @@ def extent(scene, axis):
     sides = [(getattr(f, axis), f.reach if axis == "x" else math.inf if f.transverse else f.reach_y)
              for f in scene.reference.features]
     return min((at - reach) / a for at, reach in sides), max((at + reach) / a for at, reach in sides)
+
+
+def holds_oil(scene):
+    """Whether features of the surface that a window follows have places below the smooth surface."""
+    return any(heights.min() < -DEEP * np.abs(heights).max() for heights in map(_heights, scene.reference.features))
+
+
+def _heights(f):
+    """Heights (SAMPLES, SAMPLES or 1) m of a feature over its extent."""
+    x = np.linspace(-f.reach, f.reach, SAMPLES)[:, None]
+    y = np.linspace(-f.reach_y, f.reach_y, SAMPLES) if 0 < f.reach_y < np.inf else np.zeros(1)
+    return f.height_at(x, y[None, :])
 
 
 def _zoom(scene):

@@ -7,7 +7,7 @@ import pytest
 import tehl_taichi as tehl
 from tehl_taichi.runs import single_run, zoom_need, zoom_store
 from tehl_taichi.runs.progress import Progress
-from tehl_taichi.scene import refinement
+from tehl_taichi.scene import refinement, zoom_room
 
 SCENE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid.nx": 256})
 
@@ -43,7 +43,7 @@ def test_windows_see_the_oil_enter_a_hollow(monkeypatch, changes, hollow):
     """A late window of a rolling dent has 2.979 GPa, one over the whole passage 3.045, a whole fine grid 3.042."""
     scene = tehl.scene("gear").replace(**{"feature.width": 4e-4, **changes})
     run = finished(scene, 0.5, monkeypatch=monkeypatch)
-    assert zoom_need.holds_oil(scene) is hollow
+    assert zoom_room.holds_oil(scene) is hollow
     assert zoom_need.begin(run.store) == (None if hollow else 0.5)
 
 

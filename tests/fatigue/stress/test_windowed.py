@@ -212,6 +212,18 @@ def test_critical_points_are_followed_between_the_steps_of_the_run(surface, shar
     assert top.f.max() == top.worst.f > layers[0].worst.f
 
 
+def test_moments_that_do_not_count_are_not_followed():
+    """The search ends before the window begins, or in it."""
+    reader = zoomed(GEAR, 2, since=20, between=True)
+    centres = np.array([reader.feature_x(n) for n in range(len(reader))])
+    for last, more in ((15, 0), (25, 5)):
+        scene = GEAR.replace(**{"fatigue.to_x": float(centres[last] / Scales.of(GEAR).a) + 1e-6})
+        passage = StressHistories(scene, reader, centres, surface=scene.surfaces[0])
+        layers = [layer(scene, passage, 0.0, lambda done, total: None, None)]
+        worst = every_moment.followed(scene, passage, layers, depth_search.DepthResult())[0][0].worst
+        assert len(worst.stress) == len(layers[0].worst.stress) + more
+
+
 def test_without_moments_between_the_steps_a_search_stays_as_it_is():
     reader = zoomed(GEAR)
     assert reader.every is None
