@@ -13,10 +13,10 @@ from tehl_taichi.pressure import fields
 IN_J = ("A", "AU", "AD", "B", "BU", "BD", "EPS", "SCALE", "KIND", "RES", "SOL", "COR", "TRIAL", "FILM", "BAND")
 IN_S = ("P", "H", "GAP0", "QOLD", "MASK", "WEIGHT", "RHO", "LE", "IE", "ROOT", "GAP", "DLE", "DRP", "QP", "R", "D", "DRY",
         "TOUCH", "BASE", "RISE", "RHOC", "QCP", "SKEW", "DSKEW")
-IN_Z = ("T", "TN", "TNN", "U", "VY", "MX", "MY", "MS", "MSN", "MSNN", "NIE", "NRHO", "TS", "PS", "LAST",
+IN_Z = ("T", "TN", "TNN", "U", "VY", "MX", "MY", "MS", "MSN", "MSNN", "NIE", "NRHO", "TS", "PS", "LAST", "CAME", "CHANGED",
         "KEPT")  # per node of zeta; the last one stands for those of the viscosity
 IN_C = ("PN", "PNN", "QA", "QB", "AA", "AB", "TAU", "PX", "PY", "XA", "YA", "XB", "YB", "PL", "HL", "STILL", "MOVING",
-        "SA", "SB")
+        "SA", "SB", "TURNED", "BENT", "STILLED")
 CONSTANT = ("G", "blocks")  # arguments too small to count
 # rows of the guesses' table that a kernel reads and writes: guesses of `order` orders in two frames, what they missed, states
 OF_GUESSES = {extrapolation.extrapolate: lambda order: 3 * order + 1, extrapolation.judge: lambda order: 4 * order + 1,

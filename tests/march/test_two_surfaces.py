@@ -46,7 +46,8 @@ def test_a_feature_on_b_is_one_on_a_with_the_slip_turned_bit_for_bit():
 
 
 def test_the_mirror_holds_with_temperatures_to_what_is_solved():
-    changes = {"thermal.on": True, "steps": 12}
+    """Rounds end by thermal.tolerance, with rounding errors that are no mirror images: 3e-6 with 0.1 K, 7e-8 with 1e-3 K."""
+    changes = {"thermal.on": True, "thermal.tolerance": 1e-3, "steps": 12}
     for a, b in zip(marched(line(**changes)), marched(line(0.12, "b", **changes))):
         for name, turned in {**SWAPPED, "temperature_a": "temperature_b", "temperature_b": "temperature_a"}.items():
             assert np.abs(a.fields[name] - b.fields[turned]).max() < 1e-6 * np.abs(a.fields[name]).max(), name

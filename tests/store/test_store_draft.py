@@ -90,7 +90,7 @@ def test_two_at_once_get_two_names_from_the_start(tmp_path):
 def test_a_store_appears_with_its_first_entry(tmp_path, monkeypatch):
     path, seen = tmp_path / "a.zarr", []
     append = Store._append
-    monkeypatch.setattr(Store, "_append", lambda *words: (seen.append(path.exists()), append(*words)))
+    monkeypatch.setattr(Store, "_append", lambda *words, **more: (seen.append(path.exists()), append(*words, **more)))
     store(path, entries=1)
     assert seen == [False] and names(tmp_path) == ["a.zarr"] and len(Store.open(path)) == 1
 
