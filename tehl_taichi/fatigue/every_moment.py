@@ -8,7 +8,6 @@ Thermal stress changes slowly at a point, so it is interpolated between the mome
 and its loads do not cause).
 """
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +16,7 @@ from tehl_taichi.fatigue import findley
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import worst_of
+from tehl_taichi.values.interpolation import lagrange
 
 SAME = 1e-12  # m: moments whose features are closer to each other are one
 POINTS = 4  # moments of the run that a polynomial uses
@@ -70,9 +70,10 @@ def _at_all_moments(scene, passage, reader, points):
     reader.searched = {passage.surface.name: _box(passage, points)}
     loads = StressHistories(_of_loads(scene, passage, centres[new][0]), reader, centres, surface=passage.surface)
     depths = sorted({point.depth for point in points})
-    rows = sorted({int(np.argmin(np.abs(loads.reader.y - point.y))) for point in points})
-    found = histories_of(loads, depths, [(row, False) for row in rows])
-    return [_improved(point, passage.positions, loads.positions, _history(loads, found, depths, rows, point))
+    rows = {point.y: int(np.argmin(np.abs(loads.reader.y - point.y))) for point in points}
+    found = dict(zip(rows, histories_of(loads, depths, [(row, False) for row in rows.values()])))
+    return [_improved(point, passage.positions, loads.positions,
+                      found[point.y][depths.index(point.depth), int(np.argmin(np.abs(loads.x - point.x)))])
             for point in points]
 
 
@@ -90,12 +91,6 @@ def _box(passage, points):
     rows = passage.reader.y
     cell = float(rows[1] - rows[0]) if len(rows) > 1 else 1.0
     return around([one.x for one in points], passage.dx), around([one.y for one in points], cell), (0.0, np.inf)
-
-
-def _history(loads, found, depths, rows, point):
-    """Stresses (moments, 6) Pa of the loads at a point; found: result of :func:`histories_of` at these depths and rows."""
-    row = rows.index(int(np.argmin(np.abs(loads.reader.y - point.y))))
-    return found[row][depths.index(point.depth), int(np.argmin(np.abs(loads.x - point.x)))]
 
 
 def _improved(point, steps, moments, history):
@@ -123,6 +118,6 @@ def between(known, values, at):
     through the POINTS nearest ones."""
     count = min(POINTS, known.size)
     first = np.clip(np.searchsorted(known, at, side="right") - count // 2, 0, known.size - count)
-    nodes = [known[first + n] for n in range(count)]
-    weights = [math.prod((at - other) / (node - other) for other in nodes if other is not node) for node in nodes]
-    return sum(weight.reshape(-1, *[1] * (values.ndim - 1)) * values[first + n] for n, weight in enumerate(weights))
+    weights = np.array([lagrange(known[n : n + count], to) for n, to in zip(first, at)])
+    near = values[first[:, None] + np.arange(count)]
+    return np.einsum("mn,mn...->m...", weights, near)
