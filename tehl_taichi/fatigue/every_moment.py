@@ -2,10 +2,11 @@
 
 A search takes the moments of the run, one cell of the run apart. A front that is a few cells of the window wide then passes a
 point between two moments: the gear's asperity at SRR -0.12 on 512x128 cells has an index over 10 um of 0.9709 and 1.2556
-(bodies a and b), with every fourth moment 0.9679 and 1.2498.
+(bodies a and b), with every fourth moment 0.9679 and 1.2498. Which of some neighbours is the worst also depends on the moments,
+so at the surface all those are followed that may be the worst.
 
 Thermal stress changes slowly at a point, so it is interpolated between the moments of the run (with what else the history has
-and its loads do not cause).
+and its loads do not cause); but for that of a hot surface layer that is held in its plane, which follows its temperature.
 """
 
 from dataclasses import replace
@@ -13,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from tehl_taichi.fatigue import findley
+from tehl_taichi.fatigue.stress import held_heat
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import worst_of
@@ -39,8 +41,8 @@ def followed(scene, passage, layers, deep):
         """A part of the search with its new critical points."""
         return found and replace(found, worst=known.get(id(found.worst), found.worst))
 
-    layers = [replace(with_new(one), early=with_new(one.early)) for one in layers]
-    layers[0] = replace(layers[0], f=_raised(layers[0]))
+    surface = _raised(layers[0], passage, [known[id(point)] for point in layers[0].close])
+    layers = [replace(with_new(one), early=with_new(one.early)) for one in [surface, *layers[1:]]]
     plane = deep.plane and replace(with_new(deep.plane), early=with_new(deep.plane.early))
     return layers, replace(deep, profiles=[with_new(one) for one in deep.profiles], plane=plane,
                            before=[with_new(one) for one in deep.before], early_plane=with_new(deep.early_plane))
@@ -49,16 +51,18 @@ def followed(scene, passage, layers, deep):
 def _critical(layers, deep):
     """The critical points (each once) at the surface and below it, of all moments and of the early ones."""
     early = [one.early.worst for one in layers if one.early]
-    found = [layers[0].worst, worst_of([one.worst for one in layers[1:]] + deep.worst), *early[:1],
+    found = [*layers[0].close, worst_of([one.worst for one in layers[1:]] + deep.worst), *early[:1],
              worst_of(early[1:] + deep.early)]
     return list({id(point): point for point in found if point}.values())
 
 
-def _raised(layer):
-    """Values f (x', rows) Pa of a layer, with that of its critical point by all moments."""
+def _raised(layer, passage, points):
+    """The layer with the worst of `points` (WorstPoints by all moments), and with their values f (Pa)."""
     f = layer.f.copy()
-    f.flat[np.argmax(f)] = layer.worst.f
-    return f
+    for point in points:
+        place = int(np.argmin(np.abs(passage.x - point.x))), int(np.argmin(np.abs(passage.y - point.y)))
+        f[place] = max(f[place], point.f)
+    return replace(layer, f=f, worst=worst_of(points), close=[])
 
 
 def _at_all_moments(scene, passage, reader, points):
@@ -72,6 +76,10 @@ def _at_all_moments(scene, passage, reader, points):
     depths = sorted({point.depth for point in points})
     rows = {point.y: int(np.argmin(np.abs(loads.reader.y - point.y))) for point in points}
     found = dict(zip(rows, histories_of(loads, depths, [(row, False) for row in rows.values()])))
+    if scene.has_thermal_stress and depths[0] == 0.0:
+        held = held_heat.histories(loads, sorted(rows.values()))
+        for y, row in rows.items():
+            found[y][0] += held[row]
     return [_improved(point, passage.positions, loads.positions,
                       found[point.y][depths.index(point.depth), int(np.argmin(np.abs(loads.x - point.x)))])
             for point in points]

@@ -1,13 +1,13 @@
 """Search of all material points at one depth: stresses, critical planes, worst point."""
 
 import functools
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from tehl_taichi.fatigue import findley, index_statistics, stress_cycles, von_mises
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface
-from tehl_taichi.fatigue.worst_point import WorstPoint, over_some, worse
+from tehl_taichi.fatigue.worst_point import WorstPoint, close_ones, over_some, worse
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,8 @@ class Layer:
     Maps (x', rows): f, value of the criterion (Pa); theta, phi, angles of the critical plane (degrees); sigma1, largest
     principal stress (Pa); cycles above the limit per passage (nan at points outside the sample). worst: the worst point. mises:
     the largest von Mises stress, or None. early: results of the early moments, or None. If the passage searches its worst point
-    only, f is that of `worst=True` of :func:`tehl_taichi.fatigue.findley.search`, and sigma1 is nan.
+    only, f is that of `worst=True` of :func:`tehl_taichi.fatigue.findley.search`, and sigma1 is nan. close: the worst points,
+    if the reader of the passage has moments between those of the run.
     """
 
     depth: float
@@ -38,6 +39,7 @@ class Layer:
     worst: WorstPoint
     mises: von_mises.VonMisesPeak | None
     early: EarlyLayer | None
+    close: list = field(default_factory=list)
 
 
 def layer(scene, passage, depth, progress, early):
@@ -45,7 +47,8 @@ def layer(scene, passage, depth, progress, early):
 
     progress: called with (done, total); early: numbers of the moments that are also searched alone, or None.
     """
-    parts, worst, peaks, sooner = [], None, [], _Early(scene, passage, depth, early)
+    parts, worst, peaks, close, sooner = [], None, [], [], _Early(scene, passage, depth, early)
+    follows = getattr(passage.reader, "every", None) is not None
     counted = index_statistics.sample(index_statistics.weights(passage)) & (not passage.worst)
     local = passage.strength.at(depth)
     for rows, history in _blocks(scene, passage, depth, progress):
@@ -55,9 +58,11 @@ def layer(scene, passage, depth, progress, early):
         tension = np.full(len(f), np.nan) if passage.worst else von_mises.largest(history, findley.largest_principal)
         parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), tension, cycles)])
         worst = worse(worst, passage.places(depth, rows), history, f, normals, local)
+        close = close_ones(close, passage.places(depth, rows), history, f, normals, local) if follows else []
         peaks += [von_mises.peak(history, passage.places(depth, rows))] if passage.steel else []
         sooner.add(rows, history, (f, normals))
-    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, max(peaks, default=None), sooner.found)
+    return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, max(peaks, default=None), sooner.found,
+                 close)
 
 
 def early_layer(scene, passage, depth, progress, early):

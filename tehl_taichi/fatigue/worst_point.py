@@ -8,6 +8,10 @@ from tehl_taichi.fatigue import findley
 from tehl_taichi.scene.strength.strength import LocalStrength
 
 AT_ONCE = 512  # points of which some moments are searched
+# share of the largest stress from which a point may be the worst by more moments, and the most points that are kept. A dent and
+# an asperity with temperatures at SRR 0.12 on 512x128 cells, averaged over 10 um: the worst points by all moments have at least
+# 0.991 of the largest stress by every fourth one, 7 to 13 points 0.99, 9 to 27 points 0.98
+CLOSE, MOST = 0.98, 32
 
 
 @dataclass(frozen=True)
@@ -76,6 +80,17 @@ def worse(worst, places, history, f, normals, local):
     if worst is not None and f[top] <= worst.f:
         return worst
     return WorstPoint(*places(top), f[top], history[top].copy(), normals[top], local)
+
+
+def close_ones(points, places, history, f, normals, local):
+    """The worst of these points and of `points` (WorstPoints), which may be the worst by more moments; other arguments as for
+    :func:`worse`.
+    """
+    least = CLOSE * max([float(f.max()), *(point.f for point in points)])
+    new = [WorstPoint(*places(n), f[n], history[n].copy(), normals[n], local)
+           for n in np.argsort(-f)[:MOST] if f[n] >= least]
+    known = [point for point in points if point.f >= least]
+    return sorted(known + new, key=lambda point: -point.f)[:MOST]
 
 
 def over_some(history, moments, passage, depth, places, known, worst=None):

@@ -8,6 +8,7 @@ import pytest
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import depth_profile, depth_search, every_moment, findley
 from tehl_taichi.fatigue.layer import layer
+from tehl_taichi.fatigue.stress import held_heat
 from tehl_taichi.fatigue.stress.averaging import AveragedReader, averaged_reader
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
@@ -210,6 +211,78 @@ def test_critical_points_are_followed_between_the_steps_of_the_run(surface, shar
         f = float(findley.search(stress[None], new.local.kappa)[0][0])
         assert new.f >= old.f and abs(new.f - f) < 0.01 * f
     assert top.f.max() == top.worst.f > layers[0].worst.f
+
+
+@pytest.mark.parametrize("srr, x_end", [(-0.6, 0.2), (0.4, 0.0), (1.0, 0.2)])
+def test_neighbours_of_the_worst_point_are_followed(srr, x_end):
+    """By all moments another point is the worst than by those of the run."""
+    scene = GEAR.replace(srr=srr, **{"time.x_end": x_end, "fatigue.thermal_stress": False})
+    reader = zoomed(scene, 4, since=3, between=True)
+
+    def searched(one):
+        centres = np.array([one.feature_x(n) for n in range(len(one))])
+        passage = StressHistories(scene, one, centres, surface=scene.surfaces[1])
+        return passage, layer(scene, passage, 0.0, lambda done, total: None, None)
+
+    (passage, steps), (_, whole) = searched(reader), searched(Whole(reader.every))
+    (found,), _ = every_moment.followed(scene, passage, [steps], depth_search.DepthResult())
+    assert abs(steps.worst.x - whole.worst.x) > passage.dx
+    assert abs(found.worst.x - whole.worst.x) < 0.1 * passage.dx and found.worst.y == whole.worst.y
+    assert abs(found.worst.f - whole.worst.f) < 0.006 * whole.worst.f
+    at = np.unravel_index(np.argmax(found.f), found.f.shape)
+    assert found.f[at] == found.worst.f and passage.x[at[0]] == found.worst.x and passage.y[at[1]] == found.worst.y
+
+
+@pytest.mark.parametrize("surface", ["a", "b"])
+@pytest.mark.parametrize("scene", [GEAR, LINE, OFF_AXIS], ids=["half domain", "line", "off the axis"])
+def test_the_stress_of_a_hot_layer_follows_its_temperature(scene, surface):
+    """At points in the window; its temperatures are those of Loads."""
+    reader = zoomed(scene, 4, since=3, between=True).every
+    centres = np.array([reader.feature_x(n) for n in range(len(reader))])
+    passage = StressHistories(scene, reader, centres, surface=scene.surfaces["ab".index(surface)])
+    sides = (-2e-5, 3e-5) if reader.y[0] < 0 else (0.0, 3e-5) if scene.rows else (0.0,)
+    rows = sorted({int(np.argmin(np.abs(reader.y - scene.features[0].y - side))) for side in sides})
+    found, body, counted = held_heat.histories(passage, rows), passage.surface.body, 0
+    for row in rows:
+        assert found[row].shape == (passage.x.size, passage.centres.size + 1, 6)
+        assert not found[row][..., 2:].any() and not found[row][:, -1].any()
+        for moment in np.flatnonzero(passage.entries > 12):
+            at, entry = passage.centres[moment] + passage.x, int(passage.entries[moment])
+            inside = np.abs(at - reader.feature_x(entry)) < 0.12 * passage.a
+            there = Loads(scene, at[inside], np.array([reader.y[row]]), True)
+            there.feature_x = lambda n, at=reader.feature_x(entry): at
+            name = f"temperature_{surface}"
+            rise = there.fields(entry, (name,))[name][:, 0] - scene.operation.temperature
+            counted += rise.size
+            for component in (0, 1):
+                stress = found[row][inside, moment, component]
+                assert np.allclose(stress, -body.E * body.alpha / (1 - body.nu) * rise, rtol=0.002)
+    assert counted > 1000
+
+
+def test_heat_is_followed_between_the_steps_of_the_run(monkeypatch):
+    """A hot spot passes a point of a body that conducts no heat: only its surface layer is hot. Stress history of the point
+    against that of a search of all moments, also if all heat were interpolated."""
+    scene = LINE.replace(srr=-1.0, **{"bodies.b.k": 0.01, "bodies.b.rho": 1e5})
+    reader = zoomed(scene, 4, since=3, between=True)
+    whole, body = Whole(reader.every), scene.surfaces[1]
+
+    def passage_of(one):
+        return StressHistories(scene, one, np.array([one.feature_x(n) for n in range(len(one))]), surface=body)
+
+    def error():
+        steps = passage_of(reader)
+        (found,), _ = every_moment.followed(scene, steps, [layer(scene, steps, 0.0, lambda done, total: None, None)],
+                                            depth_search.DepthResult())
+        point, there = found.worst, passage_of(whole)
+        stress = histories_of(there, [0.0], [(0, False)])[0][0, int(np.argmin(np.abs(there.x - point.x)))]
+        same = np.abs(there.positions[:, None] - point.positions).argmin(axis=0)
+        new = np.abs(point.positions[:, None] - steps.positions).min(axis=1) > 1e-9
+        return np.abs(stress[same] - point.stress[:-1])[new].max()
+
+    followed = error()
+    monkeypatch.setattr(held_heat, "histories", lambda passage, rows: dict.fromkeys(rows, 0.0))
+    assert followed < 0.3 * error()
 
 
 def test_moments_that_do_not_count_are_not_followed():
