@@ -49,9 +49,11 @@ def until(store):
 def begin(store):
     """Position (a) of the feature shortly before which windows begin; None: with the passage.
 
-    A hollow takes oil in at the inlet and keeps it: the window must see it enter.
+    The inlet determines the film under a feature: the window must see a hollow take oil in, and whatever has too few cells of
+    the run for a sure film.
     """
-    return None if zoom_room.holds_oil(store.scene) else until(store)
+    sure = all(sight.cells >= resolution.SURE for sight in resolution.sights(store.scene))
+    return until(store) if sure and not zoom_room.holds_oil(store.scene) else None
 
 
 def few_cells(scene):

@@ -25,7 +25,8 @@ FIELDS = {"pressure": ("Pa", "pressure in the zoom window"), "film": ("m", "film
              for body in "ab" for axis in "xy"},
           "temperature_mid": ("degC", "mid-film temperature in the zoom window"),
           **{f"temperature_{body}": ("degC", f"temperature of surface {body} in the zoom window") for body in "ab"}}
-EARLY = {**dict.fromkeys((coarse_runs.FI, coarse_runs.AVERAGED), coarse_runs.RESOLVED),
+EARLY = {"h_min_m": coarse_runs.MIDDLE,
+         **dict.fromkeys((coarse_runs.FI, coarse_runs.AVERAGED), coarse_runs.RESOLVED),
          **dict.fromkeys((coarse_runs.BELOW, coarse_runs.AVERAGED_BELOW), coarse_runs.RESOLVED_BELOW)}
 DIMS = ["zoom_moment", "zoom_x", "zoom_y"]
 BETWEEN = "zoom_between"  # dimension of the moments between the steps of the run, and the first part of their names
@@ -120,13 +121,13 @@ def corrected(saved, found, searches, passage, domain):
 def _with_early(sizes, parts):
     """Error bars {name: size or None} of a window that begins late.
 
-    Indices also contain the error of the moments before the window, which is that of the run while it resolves the pressure.
-    parts: "passage_parts" of the run.
+    They also contain the error of the moments before the window, which is that of the run: of the film that the inlet
+    determines, and of indices while the run resolves the pressure. parts: "passage_parts" of the run.
     """
     out = dict(sizes)
     for name, size in sizes.items():
-        surface, _, index = name.partition(":")
-        early = parts.get(coarse_runs.of_surface(surface, EARLY.get(index, "")), {}).get("grid")
+        surface, colon, number = name.rpartition(":")
+        early = parts.get(surface + colon + EARLY.get(number, ""), {}).get("grid")
         if size is not None and early is not None:
             out[name] = math.hypot(size, early)
     return out

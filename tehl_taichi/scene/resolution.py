@@ -12,6 +12,7 @@ from tehl_taichi.values.coded_warning import with_data
 # times finer): film under it and largest pressure off by 20 to 40 % with 3 to 4 cells, 5 to 20 % with 6 to 9, 2 to 5 % with
 # 12 to 18, 1 % with 35.
 FEWEST, ENOUGH = 4, 16
+SURE = 32  # for a film within 1 %
 MULTIPLES = {"nx": (16, 8192), "ny": (4, 4096)}  # that a grid must keep to, and its most cells
 WINDOW = 8  # times as fine as a grid is the finest window
 HALVED = 2  # times: by the coarse-grid runs for the errors of a run

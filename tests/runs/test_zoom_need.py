@@ -47,6 +47,14 @@ def test_windows_see_the_oil_enter_a_hollow(monkeypatch, changes, hollow):
     assert zoom_need.begin(run.store) == (None if hollow else 0.5)
 
 
+@pytest.mark.parametrize("columns, late", [(256, True), (240, True), (224, False), (128, False)])
+def test_windows_see_the_film_begin_where_the_run_does_not_resolve_it(columns, late, monkeypatch):
+    """On 128x32 cells with temperatures, SRR 0.12, a late window has 0.0996 um and Fi 1.558, one over the whole passage 0.1038
+    um and 1.587, a whole fine grid 0.1038 um and 1.588."""
+    scene = tehl.scene("gear").replace(**{"grid.nx": columns, "grid.ny": columns // 4})
+    assert zoom_need.begin(finished(scene, 0.5, monkeypatch=monkeypatch).store) == (0.5 if late else None)
+
+
 def test_the_work_of_a_window_counts_from_where_it_begins(monkeypatch):
     bump, dent = (zoom_need.work(finished(tehl.scene("gear").replace(height=height), 0.5, monkeypatch=monkeypatch).store, 4)
                   for height in (1.5e-6, -1.5e-6))

@@ -82,10 +82,12 @@ def test_of_rough_surfaces_all_points_are_searched():
 def test_bars_of_a_late_window_have_those_of_the_moments_before_it():
     from tehl_taichi.runs.zoomed_run import _with_early
 
-    sizes = {"a:Fi_max": 3.0, "a:averaged_Fi_max": 5.0, "b:Fi_max": None, "a:below_Fi_max": 1.0, "p_max_Pa": 2.0}
-    parts = {"a:resolved_Fi_max": {"grid": 4.0}, "b:resolved_Fi_max": {"grid": 1.0}, "a:resolved_below_Fi_max": {"grid": None}}
+    sizes = {"a:Fi_max": 3.0, "a:averaged_Fi_max": 5.0, "b:Fi_max": None, "a:below_Fi_max": 1.0, "p_max_Pa": 2.0,
+             "h_min_m": 1.0}
+    parts = {"middle_h_min_m": {"grid": 2.0}, "a:resolved_Fi_max": {"grid": 4.0}, "b:resolved_Fi_max": {"grid": 1.0},
+             "a:resolved_below_Fi_max": {"grid": None}}
     assert _with_early(sizes, parts) == {"a:Fi_max": 5.0, "a:averaged_Fi_max": np.hypot(5, 4), "b:Fi_max": None,
-                                         "a:below_Fi_max": 1.0, "p_max_Pa": 2.0}
+                                         "a:below_Fi_max": 1.0, "p_max_Pa": 2.0, "h_min_m": np.hypot(1, 2)}
 
 
 def test_numbers_of_all_points_are_those_of_the_run():

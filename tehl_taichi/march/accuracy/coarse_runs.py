@@ -33,6 +33,7 @@ FI, BELOW = "Fi_max", "below_Fi_max"  # names of the largest index of the surfac
 RESOLVED, RESOLVED_BELOW = "resolved_Fi_max", "resolved_below_Fi_max"  # of both as long as the grid resolves the pressure
 AVERAGED, AVERAGED_BELOW = "averaged_Fi_max", "below_averaged_Fi_max"  # of both, of stresses over fatigue.length
 MISES = "von_mises_max_Pa"  # of the von Mises stress
+MIDDLE = "middle_h_min_m"  # of the smallest film with the feature in the middle of the contact
 CONTACT, AREA = "contact_load_fraction_max", "contact_area_share_max"
 PART = 0.1  # a
 FEW = 4 / 3  # points; a bar has 1.5 times as many
@@ -89,6 +90,8 @@ def passage_readings(scene, reader, scalar, searches=None, run_in=None):
     out = {entry.key: _reading(entry, scalar, scene) for entry in bars_of if entry.exists(scene)}
     out["p_max_Pa"] = readings.pressure_reading(_moment(reader, int(np.argmax(p)) + 1), a)
     out["h_min_m"] = readings.film_reading(_moment(reader, int(np.argmin(h)) + 1), scene)
+    middle = np.argmin(np.abs([reader.feature_x(n) for n in range(1, p.size + 1)]))
+    out[MIDDLE] = readings.film_reading(_moment(reader, int(middle) + 1), scene)
     found = indices(searches or {})
     out |= {name: GridReading(float(part["Fi_max"]), doubt=_shallow(name, found)) for name, part in found.items()}
     out |= _of_cells(out, searches or {})

@@ -60,6 +60,10 @@ class BaseStates:
         if self.heat:
             self.heat.skip_to(step - POINTS)
 
+    def holds(self, step):
+        """Whether the states from this step on can be read several times."""
+        return self.heat is None or self.heat.holds(max(step - POINTS, 0))
+
     def position(self, step):
         """Centre of the first feature (a) at a step; a fraction is a moment between two steps."""
         return self.first_x + step * self.way

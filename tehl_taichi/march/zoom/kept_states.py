@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 MOST, BYTES = 8, 1e8  # largest number and memory of the whole states (one thermal state of 257x65x9 nodes has 11 MB)
-# largest memory of the temperatures. The window of the default exit (256x64x9 nodes) needs those of 69 steps, 199 MB; to march
-# them again takes 6 of the 53 s of its windows
-HEAT_BYTES = 3e8
+# largest memory of the temperatures. The window of the default exit (256x64x9 nodes) needs those of 69 steps, 199 MB; those of
+# a whole passage have 560 MB. To march 69 steps again takes 6 of the 53 s of its windows
+HEAT_BYTES = 1e9
 
 
 @dataclass(frozen=True)

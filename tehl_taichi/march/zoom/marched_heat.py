@@ -25,6 +25,10 @@ class MarchedHeat:
         if state and int(state["step"]) > self.newest:
             self._begin_at(state)
 
+    def holds(self, step):
+        """Whether all states from this step on are in memory."""
+        return max(step, 1) in self.known and (step > 0 or 0 in self.states)
+
     def at(self, step):
         """The HeatState of a step. Raises NotConverged if the repeated run does not converge."""
         if step in self.known:

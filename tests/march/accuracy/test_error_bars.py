@@ -299,7 +299,7 @@ def test_companions_give_the_bars_of_a_passage(passage):
     found = coarse_runs.errors(short(), passage, {"a": {"Fi_max": 0.5}},
                               lambda: coarse_runs.answers(short(), lambda *part: told.append(part)))
     bars = found["passage_error"]
-    assert bars.keys() == {"p_max_Pa", "h_min_m", "friction_coefficient_mean", "contact_load_fraction_max",
+    assert bars.keys() == {"p_max_Pa", "h_min_m", "middle_h_min_m", "friction_coefficient_mean", "contact_load_fraction_max",
                            "contact_area_share_max", "a:Fi_max", "a:averaged_Fi_max"}
     assert bars.pop("contact_load_fraction_max") == bars.pop("contact_area_share_max") == 0.0  # nothing touches
     assert all(size > 0 for size in bars.values() if size is not None)

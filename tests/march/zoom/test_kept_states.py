@@ -55,3 +55,14 @@ def test_kept_temperatures_are_not_marched_again(monkeypatch):
     assert float(marched.at(0).T[0]) == float(marched.at(3).T[0]) == float(np.float32(1 / 3))
     with pytest.raises(StopIteration):
         marched.at(2)
+
+
+@pytest.mark.parametrize("start, first, held", [(0, 1, {0, 1, 5}), (0, 3, {3, 5}), (2, 3, {3, 5}), (2, 1, {1, 5})])
+def test_states_can_be_read_several_times_if_all_are_kept(start, first, held):
+    """Those that a march begins with at step 0 are kept, too."""
+    found = KeptStates({"step": start, **heat(1.0)})
+    for step in range(first, 6):
+        found.add_heat(step, heat(1.0))
+    marched = marched_heat.MarchedHeat(None, kept=found)
+    assert {step for step in (0, 1, 3, 5) if marched.holds(step)} >= held
+    assert marched.holds(0) == (0 in held) and marched.holds(1) == (1 in held)

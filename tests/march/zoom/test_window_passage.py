@@ -188,3 +188,18 @@ def test_progress_counts_the_steps_of_the_run(runs):
     passage(scene, reader, 2, lambda *part: seen.append(part))
     last = len(reader) - 1
     assert seen == [(n, last) for n in range(1, last + 1)]
+
+
+def test_windows_that_move_one_after_the_other_are_those_that_move_together(runs, monkeypatch):
+    """In tables and kernels of the one before."""
+    seen = []
+    scene, reader = runs(-0.12)
+    after = passages(scene, reader, [1, 2], lambda *part: seen.append(part))
+    assert seen == [(n, 2 * (len(reader) - 1)) for n in range(1, 2 * len(reader) - 1)]
+    monkeypatch.setattr(BaseStates, "holds", lambda *_: False)
+    together = passages(scene, reader, [1, 2])
+    assert [one.window.factor for one in after] == [one.window.factor for one in together] == [1, 2]
+    for one, other in zip(after, together):
+        assert one.entries == other.entries and one.origins == other.origins and not one.ended
+        for name, fields_of in one.fields.items():
+            assert all(np.array_equal(*pair) for pair in zip(fields_of, other.fields[name]))
