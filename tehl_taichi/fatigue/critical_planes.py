@@ -34,7 +34,7 @@ REACH = 2.0   # steps that a pattern may move before the deciding moments are ch
 
 LANES = 8     # planes bounded at once: the ring of a pattern search
 lanes = ti.types.vector(LANES, ti.f64)
-PEAK = 5      # numbers kept per peak: normal (3), value, turn
+PEAK = 5      # numbers kept per peak: normal (3), value, next ring
 
 
 @ti.func
@@ -122,16 +122,15 @@ def half_chord(a: ti.template(), b: ti.template(), row, steps):
 
 
 @ti.func
-def best_of_ring(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), row, steps, centre, step, turn,
-                 value, middle, kappa, rule: ti.template(), prune):
-    """(normal, value, middle) of the best of eight planes tilted by `step` (rad) around `centre`; the given ones if none is
-    better. prune 0: every plane is evaluated."""
+def best_of_ring(S: ti.template(), some: ti.template(), rings: ti.template(), a: ti.template(), b: ti.template(), row, steps,
+                 centre, step, turn, value, middle, kappa, rule: ti.template(), prune):
+    """(normal, value, middle) of the best of eight planes tilted by `step` (rad) around `centre`, in the directions of the
+    ring `turn`; the given ones if none is better. prune 0: every plane is evaluated."""
     e1, e2 = plane_frame(centre)
     n, best, mid = centre, value, middle
     x, y, z = lanes(0.0), lanes(0.0), lanes(0.0)
     for k in ti.static(range(LANES)):
-        angle = turn + k * 0.7853981633974483
-        trial = (centre + step * (ti.cos(angle) * e1 + ti.sin(angle) * e2)).normalized()
+        trial = (centre + step * (rings[turn, k, 0] * e1 + rings[turn, k, 1] * e2)).normalized()
         x[k], y[k], z[k] = trial[0], trial[1], trial[2]
     bound = bounds(S, some, row, steps, x, y, z, middle, kappa, rule)
     for _ in range(LANES):
@@ -150,30 +149,30 @@ def best_of_ring(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.
 
 
 @ti.func
-def walk(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, step, turn, best, middle,
-         kappa, rule: ti.template(), turns, prune):
+def walk(S: ti.template(), some: ti.template(), rings: ti.template(), a: ti.template(), b: ti.template(), row, steps, n, step,
+         turn, best, middle, kappa, rule: ti.template(), turns, prune):
     """Move to the best of eight neighbours until `turns` turned patterns find none that is better.
 
-    Returns plane, value, middle, the last turn (rad) and the number of patterns.
+    Returns plane, value, middle, the number of the next ring and the number of patterns.
     """
     failed, count = 0, 0
     while failed < turns and count < MOVES:
         count += 1
         failed += 1
-        chosen, value, mid = best_of_ring(S, some, a, b, row, steps, n, step, turn, best, middle, kappa, rule, prune)
+        chosen, value, mid = best_of_ring(S, some, rings, a, b, row, steps, n, step, turn, best, middle, kappa, rule, prune)
         if value > best:
             n, best, middle, failed = chosen, value, mid, 0
-        turn += 0.2763932022500210
+        turn += 1
     return n, best, middle, turn, count
 
 
 @ti.func
-def refine(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), peaks: ti.template(), row, steps, peak,
-           kappa, rule: ti.template(), step0, shrinks, turns, prune, stage):
+def refine(S: ti.template(), some: ti.template(), rings: ti.template(), a: ti.template(), b: ti.template(),
+           peaks: ti.template(), row, steps, peak, kappa, rule: ti.template(), step0, shrinks, turns, prune, stage):
     """Refine a peak by a pattern search on the sphere, with `shrinks` halvings of the step; return the number of planes bounded
     or evaluated. Stage 1 leaves out moments that can no longer decide."""
     n, best, middle = get_peak(peaks, row, peak)[0], -1e300, vec6(0.0)
-    step, turn, decided, moments = step0, peaks[row, peak, 4], 0, steps
+    step, turn, decided, moments = step0, int(peaks[row, peak, 4]), 0, steps
     for halving in range(shrinks + 1):  # before the first one: the value of the peak by all of these moments
         few, weight = moments, tie(rule, kappa, step)
         if ti.static(rule.outer):
@@ -188,8 +187,8 @@ def refine(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.templa
             if value >= best - KEPT * ti.abs(best):
                 moments = few
         if halving > 0:
-            n, best, middle, turn, count = walk(S, some, a, b, row, moments, n, step, turn, best, middle, weight, rule, turns,
-                                                prune)
+            n, best, middle, turn, count = walk(S, some, rings, a, b, row, moments, n, step, turn, best, middle, weight, rule,
+                                                turns, prune)
             decided += LANES * count
             step *= 0.5
     if ti.static(rule.sheared):
@@ -206,7 +205,7 @@ def get_peak(peaks: ti.template(), row, peak):
 
 @ti.func
 def put_peak(peaks: ti.template(), row, peak, n, value, turn):
-    """Store normal, value and turn of a peak."""
+    """Store normal, value and next ring of a peak."""
     for k in ti.static(range(3)):
         peaks[row, peak, k] = n[k]
     peaks[row, peak, 3], peaks[row, peak, 4] = value, turn
@@ -298,9 +297,9 @@ def circle(steps: ti.i32, a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types
 
 
 @ti.func
-def look(S: ti.template(), some: ti.template(), planes: ti.template(), values: ti.template(), a: ti.template(),
-         b: ti.template(), peaks: ti.template(), out: ti.template(), row, steps, kappa, rule: ti.template(), step0, shrinks,
-         prune, least):
+def look(S: ti.template(), some: ti.template(), planes: ti.template(), rings: ti.template(), values: ti.template(),
+         a: ti.template(), b: ti.template(), peaks: ti.template(), out: ti.template(), row, steps, kappa, rule: ti.template(),
+         step0, shrinks, prune, least):
     """Write the best plane of a point into its row of `out`, with the number of planes bounded or evaluated.
 
     The first stage uses some of the moments, the second all. Points with less than `least` (Pa) on the grid keep the grid's
@@ -319,7 +318,7 @@ def look(S: ti.template(), some: ti.template(), planes: ti.template(), values: t
                 peaks[row, peak, 3] = -1e300
             else:
                 step = step0 if stage == 0 else step0 * 0.5**FIRST
-                decided += refine(S, some, a, b, peaks, row, moments, peak, kappa, rule, step,
+                decided += refine(S, some, rings, a, b, peaks, row, moments, peak, kappa, rule, step,
                                   FIRST if stage == 0 else shrinks - FIRST, FIRST_TURNS if stage == 0 else TURNS, prune,
                                   stage)
     out[row, 0], out[row, 4] = -1e300, decided
@@ -334,15 +333,17 @@ def look(S: ti.template(), some: ti.template(), planes: ti.template(), values: t
 def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), step0: ti.f64, shrinks: ti.i32, prune: ti.i32,
            least: ti.f64, known: ti.types.ndarray(dtype=ti.f64, ndim=2),
            S: ti.types.ndarray(dtype=ti.f64, ndim=3), planes: ti.types.ndarray(dtype=ti.f64, ndim=2),
-           values: ti.types.ndarray(dtype=ti.f64, ndim=2), a: ti.types.ndarray(dtype=ti.f64, ndim=2),
-           b: ti.types.ndarray(dtype=ti.f64, ndim=2), peaks: ti.types.ndarray(dtype=ti.f64, ndim=3),
+           rings: ti.types.ndarray(dtype=ti.f64, ndim=3), values: ti.types.ndarray(dtype=ti.f64, ndim=2),
+           a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types.ndarray(dtype=ti.f64, ndim=2),
+           peaks: ti.types.ndarray(dtype=ti.f64, ndim=3),
            some: ti.types.ndarray(dtype=ti.i32, ndim=2), out: ti.types.ndarray(dtype=ti.f64, ndim=2)):
     """out[point] = (f, n_x, n_y, n_z, planes decided) from S[point, time, (xx, yy, zz, xy, xz, yz)].
 
     f in Pa. rule: a :class:`tehl_taichi.laws.criteria.criterion.Criterion` whose value can be traced. planes (m, 3): unit
-    normals of the grid. step0: first step, rad, halved `shrinks` times. least: see :func:`look`. known (points, 4): value and
-    plane of a search of more moments (infinite: none); the plane is kept if these moments reach the value there. Scratch:
-    values (points, m), a, b, some (points, steps), peaks (points, SHEARED_STARTS, PEAK).
+    normals of the grid. rings: see :func:`tehl_taichi.fatigue.findley.rings`. step0: first step, rad, halved `shrinks` times.
+    least: see :func:`look`. known (points, 4): value and plane of a search of more moments (infinite: none); the plane is kept
+    if these moments reach the value there. Scratch: values (points, m), a, b, some (points, steps),
+    peaks (points, SHEARED_STARTS, PEAK).
     """
     ti.loop_config(block_dim=8)
     for row in range(points):
@@ -351,7 +352,7 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
             out[row, k] = known[row, k]
         for turn in range(2):  # the known plane, then what is found
             if turn == 1:
-                look(S, some, planes, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune, least)
+                look(S, some, planes, rings, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune, least)
             if out[row, 0] < 1e300:
                 # by all moments: no other plane has more than the known one has, and a peak may have moved beyond REACH
                 n = vec3(out[row, 1], out[row, 2], out[row, 3])

@@ -13,6 +13,7 @@ GRID = 10.0  # degrees between the first planes of a search
 # halvings of the step of 5 degrees: to 2e-5 rad, error of a smooth maximum about 1e-9. If the shear alone chooses the plane,
 # the value has no maximum there, so its error is of the order of the angle and needs more halvings
 SHRINKS, SHEARED_SHRINKS = 12, 22
+TURN = 0.2763932022500210  # rad from one pattern of a search to the next
 NEAR = 0.85  # share of the largest value on the first planes: points below it cannot be the worst (these planes are 3 % low)
 SLICE = 1000  # points of one launch, after which progress is reported: 0.7 s for 411 moments on one thread
 
@@ -29,6 +30,23 @@ def planes(degrees=GRID):
         rows.append(np.stack([math.sin(theta) * np.cos(phi), math.sin(theta) * np.sin(phi),
                               np.full(m, math.cos(theta))], axis=1))
     found = np.concatenate(rows)
+    found.setflags(write=False)
+    return found
+
+
+@functools.cache
+def rings():
+    """(cosine, sine) of the directions of the eight planes of each pattern of a search, (patterns, 8, 2). Read-only.
+
+    Each pattern is turned from the one before. Computed in the kernel they take a quarter of a search.
+    """
+    from tehl_taichi.fatigue import critical_planes
+
+    found = np.empty((max(SHRINKS, SHEARED_SHRINKS) * critical_planes.MOVES, critical_planes.LANES, 2))
+    turn, apart = 0.0, 2 * math.pi / critical_planes.LANES
+    for ring in found:
+        ring[:] = [(math.cos(turn + k * apart), math.sin(turn + k * apart)) for k in range(len(ring))]
+        turn += TURN
     found.setflags(write=False)
     return found
 
@@ -94,8 +112,8 @@ def _found(history, before, kappa, prune, rule, degrees, least=-np.inf, notify=N
     for first in range(0, points, SLICE):
         part = slice(first, min(first + SLICE, points))
         critical_planes.search(part.stop - first, steps, weight, traced(rule), math.radians(degrees / 2), shrinks, int(prune),
-                               least, before[part], history[part], grid, *(one[: part.stop - first] for one in scratch),
-                               out[part])
+                               least, before[part], history[part], grid, rings(),
+                               *(one[: part.stop - first] for one in scratch), out[part])
         if notify:
             notify(part.stop, points)
     return out

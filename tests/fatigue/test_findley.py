@@ -5,7 +5,7 @@ import pytest
 from rolling import Rolling
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import assessment, findley, worst_point
+from tehl_taichi.fatigue import assessment, critical_planes, findley, worst_point
 from tehl_taichi.fatigue.stress import histories
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface
 from tehl_taichi.laws.criteria import CRITERIA
@@ -144,6 +144,14 @@ def oracle(h, n, kappa):
     e2 = np.cross(n, e1)
     path = np.stack([s @ n @ e1, s @ n @ e2], axis=1)
     return smallest_circle(path) + kappa * (s @ n @ n).max()
+
+
+def test_patterns_have_eight_directions_and_turn():
+    rings = findley.rings()
+    found = rings[..., 0] + 1j * rings[..., 1]
+    np.testing.assert_allclose(found[:, 1:] / found[:, :-1], np.exp(0.25j * np.pi), rtol=1e-12)
+    np.testing.assert_allclose(found[1:, 0] / found[:-1, 0], np.exp(1j * findley.TURN), rtol=1e-12)
+    assert found[0, 0] == 1 and len(found) == findley.SHEARED_SHRINKS * critical_planes.MOVES  # a longer walk reads beyond
 
 
 def test_value_on_the_plane_found_agrees_with_the_oracle(taichi_cpu):
