@@ -28,6 +28,7 @@ with _as_if_not_installed(OFFERED_TO):
 
 __all__ = ["DOUBLE", "SINGLE", "even_fast_length", "half", "half_back", "pyfftw", "real_of", "transform", "transform_back",
            "transformed"]
+KEPT, KEPT_BYTES = 32, 2_000_000  # kinds of arrays whose plans are kept, and their largest size
 SINGLE, DOUBLE = np.dtype(np.complex64), np.dtype(np.complex128)  # kinds of spectra
 
 
@@ -78,9 +79,9 @@ def half_back(spectra, length, axis, kind=SINGLE):
 
 def _padded(values, length, axis, kind):
     """Buffer for FFTW with these values, padded with zeros to the given length along `axis`."""
-    out = pyfftw.empty_aligned(_with(values.shape, axis, length), kind)
-    along = np.moveaxis(out, axis, 0)
-    along[: values.shape[axis]], along[values.shape[axis] :] = np.moveaxis(values, axis, 0), 0
+    out, before = pyfftw.empty_aligned(_with(values.shape, axis, length), kind), (slice(None),) * (axis % values.ndim)
+    out[(*before, slice(values.shape[axis]))] = values
+    out[(*before, slice(values.shape[axis], None))] = 0
     return out
 
 
@@ -95,6 +96,24 @@ def _with(shape, axis, length):
     return tuple(shape)
 
 
+_idle: dict[tuple, list] = {}  # plans that no thread uses, by the kind of their arrays
+
+
 def _run(given, target, axis, direction="FFTW_FORWARD"):
     """Run on one thread with an estimated plan for aligned numbers: equal plans, and so equal bits, in every run."""
-    pyfftw.FFTW(given, target, axes=(axis,), direction=direction, flags=("FFTW_ESTIMATE",), threads=1).execute()
+    key = given.shape, given.strides, given.dtype, target.shape, target.strides, target.dtype, axis, direction, given is target
+    try:
+        plan = _idle[key].pop()
+        plan.update_arrays(given, target)
+    except (KeyError, IndexError, ValueError):  # ValueError: arrays of another alignment
+        plan = pyfftw.FFTW(given, target, axes=(axis,), direction=direction, flags=("FFTW_ESTIMATE",), threads=1)
+    plan.execute()
+    if given.nbytes + target.nbytes <= KEPT_BYTES:
+        _keep(key, plan)
+
+
+def _keep(key, plan):
+    """Keep a plan, with the arrays that it holds, for transforms of equal arrays: a new one takes 50 us."""
+    if len(_idle) >= KEPT and key not in _idle:
+        _idle.clear()
+    _idle.setdefault(key, []).append(plan)
