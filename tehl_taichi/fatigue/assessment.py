@@ -29,10 +29,13 @@ PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt
 
 
 class Snapshots:
-    """Reader of a list of snapshots on one grid, as :func:`run` takes it; residual_fields: {surface name: ResidualField}."""
+    """Reader of a list of snapshots on one grid, as :func:`run` takes it.
 
-    def __init__(self, snapshots, residual_fields=None):
-        self.items = list(snapshots)
+    residual_fields: {surface name: ResidualField}; sparing: see :class:`tehl_taichi.fatigue.stress.histories.StressHistories`.
+    """
+
+    def __init__(self, snapshots, residual_fields=None, sparing=False):
+        self.items, self.sparing = list(snapshots), sparing
         self.x, self.y = self.items[0].x, self.items[0].y
         self.time = np.array([s.time for s in self.items])
         self.residual_fields = residual_fields or {}
@@ -191,8 +194,11 @@ def _result(scene, passage, layers, below, alone):
 
 
 def _statistics(layer, counts, limit):
-    """Index statistics of a layer, with the mean number of cycles above the limit (Pa); counts: weights of its points."""
-    return {**index_statistics.statistics(layer.f / limit, counts), "cycles_above_1": float(np.nanmean(layer.cycles))}
+    """Index statistics of a layer, with the mean number of cycles above the limit (Pa), if they were counted; counts: weights
+    of its points.
+    """
+    cycles = {"cycles_above_1": float(np.nanmean(layer.cycles))} if np.isfinite(layer.cycles).any() else {}
+    return {**index_statistics.statistics(layer.f / limit, counts), **cycles}
 
 
 def _statistics_below(below, counts, passage):

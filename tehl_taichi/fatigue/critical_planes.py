@@ -331,7 +331,7 @@ def look(S: ti.template(), some: ti.template(), planes: ti.template(), rings: ti
 
 @ti.kernel
 def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), step0: ti.f64, shrinks: ti.i32, prune: ti.i32,
-           least: ti.f64, known: ti.types.ndarray(dtype=ti.f64, ndim=2),
+           least: ti.types.ndarray(dtype=ti.f64, ndim=1), known: ti.types.ndarray(dtype=ti.f64, ndim=2),
            S: ti.types.ndarray(dtype=ti.f64, ndim=3), planes: ti.types.ndarray(dtype=ti.f64, ndim=2),
            rings: ti.types.ndarray(dtype=ti.f64, ndim=3), values: ti.types.ndarray(dtype=ti.f64, ndim=2),
            a: ti.types.ndarray(dtype=ti.f64, ndim=2), b: ti.types.ndarray(dtype=ti.f64, ndim=2),
@@ -341,9 +341,9 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
 
     f in Pa. rule: a :class:`tehl_taichi.laws.criteria.criterion.Criterion` whose value can be traced. planes (m, 3): unit
     normals of the grid. rings: see :func:`tehl_taichi.fatigue.findley.rings`. step0: first step, rad, halved `shrinks` times.
-    least: see :func:`look`. known (points, 4): value and plane of a search of more moments (infinite: none); the plane is kept
-    if these moments reach the value there. Scratch: values (points, m), a, b, some (points, steps),
-    peaks (points, SHEARED_STARTS, PEAK).
+    least (points,): see :func:`look`. known (points, 4): value and plane of a search of more moments (infinite: none); the
+    plane is kept if these moments reach the value there. Scratch: values (points, m), a, b, some (points, steps), peaks
+    (points, SHEARED_STARTS, PEAK).
     """
     ti.loop_config(block_dim=8)
     for row in range(points):
@@ -352,7 +352,8 @@ def search(points: ti.i32, steps: ti.i32, kappa: ti.f64, rule: ti.template(), st
             out[row, k] = known[row, k]
         for turn in range(2):  # the known plane, then what is found
             if turn == 1:
-                look(S, some, planes, rings, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune, least)
+                look(S, some, planes, rings, values, a, b, peaks, out, row, steps, kappa, rule, step0, shrinks, prune,
+                     least[row])
             if out[row, 0] < 1e300:
                 # by all moments: no other plane has more than the known one has, and a peak may have moved beyond REACH
                 n = vec3(out[row, 1], out[row, 2], out[row, 3])

@@ -58,14 +58,15 @@ def traced(criterion):
 
 
 def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decided=None, notify=None, known=None,
-           worst=False):
+           worst=False, needed=False):
     """Find the largest value of a criterion over all planes, and its plane, at every point.
 
     history: (points, times, 6) Pa: xx, yy, zz, xy, xz, yz. kappa: sensitivity of the criterion, >= 0. criterion: a name in
     `tehl_taichi.laws.criteria`. prune=False: every plane is evaluated (for tests). degrees: angle between the first planes.
     decided: (points,) array that takes the number of planes bounded or evaluated. notify: called with (done, total) points.
     known: (f, normals) of a search of histories of which these are some moments; a plane is kept if these moments reach the
-    value there. worst: search only points near the worst; the others get the value of the best first plane and the normal nan.
+    value there. worst: search only points near the worst and those that are `needed`, (points,) bool; the others get the value
+    of the best first plane and the normal nan.
 
     Returns f (points,) Pa (negative where pressure outweighs the shear) and unit normals (points, 3) with n_z >= 0.
     Raises ValueError for a history with NaN or of another shape, KeyError for an unknown criterion.
@@ -82,10 +83,11 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decide
         before[np.isnan(before).any(axis=1)] = np.inf
     found = functools.partial(_found, kappa=kappa, prune=prune, rule=rule, degrees=degrees)
     if worst and not rule.sheared:
-        out = found(history, before, least=np.inf, notify=notify)
+        needed = np.zeros(len(history), bool) | needed
+        out = found(history, before, least=np.where(needed, -np.inf, np.inf), notify=notify)
         top = out[:, 0].max(initial=-np.inf)
-        some = out[:, 0] >= top - (1 - NEAR) * abs(top)
-        out[~some, 1:4] = np.nan
+        some = (out[:, 0] >= top - (1 - NEAR) * abs(top)) & ~needed
+        out[~(some | needed), 1:4] = np.nan
         out[some] = found(history[some], before[some])
     else:
         out = found(history, before, notify=notify)
@@ -98,12 +100,13 @@ def search(history, kappa, prune=True, criterion="findley", degrees=GRID, decide
     return out[:, 0], np.where(n[:, 2:] < 0, -n, n)
 
 
-def _found(history, before, kappa, prune, rule, degrees, least=-np.inf, notify=None):
-    """(points, 5): value (Pa), plane, number of planes bounded or evaluated; before: `known` of
+def _found(history, before, kappa, prune, rule, degrees, least=None, notify=None):
+    """(points, 5): value (Pa), plane, number of planes bounded or evaluated; before, least: `known`, `least` of
     :func:`tehl_taichi.fatigue.critical_planes.search`."""
     from tehl_taichi.fatigue import critical_planes
 
     points, steps, _ = history.shape
+    least = np.full(points, -np.inf) if least is None else least
     out, grid, most = np.zeros((points, 5)), planes(degrees), min(points, SLICE)
     scratch = [np.empty((most, *size)) for size in ((len(grid),), (steps,), (steps,),
                                                     (critical_planes.SHEARED_STARTS, critical_planes.PEAK))]
@@ -112,7 +115,7 @@ def _found(history, before, kappa, prune, rule, degrees, least=-np.inf, notify=N
     for first in range(0, points, SLICE):
         part = slice(first, min(first + SLICE, points))
         critical_planes.search(part.stop - first, steps, weight, traced(rule), math.radians(degrees / 2), shrinks, int(prune),
-                               least, before[part], history[part], grid, rings(),
+                               least[part], before[part], history[part], grid, rings(),
                                *(one[: part.stop - first] for one in scratch), out[part])
         if notify:
             notify(part.stop, points)

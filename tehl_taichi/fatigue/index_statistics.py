@@ -64,13 +64,18 @@ def below(passage, profiles, counts):
     linear in the logarithm of the depth.
     """
     rows = [int(np.argmin(np.abs(passage.y - profile.worst.y))) for profile in profiles]
-    each = np.concatenate([counts[:, row] if counts[:, row].any() else np.ones(len(counts)) for row in rows])
+    each = np.concatenate([under_row(counts, row) for row in rows])
     logs, f = np.log(profiles[0].depths), np.concatenate([profile.f for profile in profiles], axis=1)
     f = f / np.array(passage.strength.limits(profiles[0].depths))[:, None]
     depths = [share * passage.a for share in DEPTHS if logs[0] <= np.log(share * passage.a) <= logs[-1]]
     out = [{"depth_m": depth, **statistics(_at(logs, f, np.log(depth)), each)} for depth in depths]
     seen = [one for one in out if one["depth_m"] >= SEEN * profiles[0].depths[0]]
     return {**max(seen or out, key=lambda one: one["p99"]), "by_depth": out}
+
+
+def under_row(counts, row):
+    """Weights (x',) of the points under a row: those of the row, 1 for all points where no feature passes."""
+    return counts[:, row] if counts[:, row].any() else np.ones(len(counts))
 
 
 def _at(logs, f, log):

@@ -25,9 +25,9 @@ class Layer:
 
     Maps (x', rows): f, value of the criterion (Pa); theta, phi, angles of the critical plane (degrees); sigma1, largest
     principal stress (Pa); cycles above the limit per passage (nan at points outside the sample). worst: the worst point. mises:
-    the largest von Mises stress, or None. early: results of the early moments, or None. If the passage searches its worst point
-    only, f is that of `worst=True` of :func:`tehl_taichi.fatigue.findley.search`, and sigma1 is nan. close: the worst points,
-    if the reader of the passage has moments between those of the run.
+    the largest von Mises stress, or None. early: results of the early moments, or None. If the passage is brief, f is that of
+    `worst=True` of :func:`tehl_taichi.fatigue.findley.search`, and sigma1 and cycles are nan. close: the worst points, if the
+    reader of the passage has moments between those of the run.
     """
 
     depth: float
@@ -49,13 +49,14 @@ def layer(scene, passage, depth, progress, early):
     """
     parts, worst, peaks, close, sooner = [], None, [], [], _Early(scene, passage, depth, early)
     follows = getattr(passage.reader, "every", None) is not None
-    counted = index_statistics.sample(index_statistics.weights(passage)) & (not passage.worst)
-    local = passage.strength.at(depth)
+    counts, local = index_statistics.weights(passage), passage.strength.at(depth)
+    counted, needed = index_statistics.sample(counts) & (not passage.brief), (counts > 0) & (not passage.worst)
     for rows, history in _blocks(scene, passage, depth, progress):
-        f, normals = findley.search(history, local.kappa, criterion=local.criterion, notify=progress, worst=passage.worst)
+        f, normals = findley.search(history, local.kappa, criterion=local.criterion, notify=progress, worst=passage.brief,
+                                    needed=needed[:, rows].ravel())
         shape = passage.x.size, rows.stop - rows.start
         cycles = _cycles(history, normals, counted[:, rows].ravel(), local)
-        tension = np.full(len(f), np.nan) if passage.worst else von_mises.largest(history, findley.largest_principal)
+        tension = np.full(len(f), np.nan) if passage.brief else von_mises.largest(history, findley.largest_principal)
         parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), tension, cycles)])
         worst = worse(worst, passage.places(depth, rows), history, f, normals, local)
         close = close_ones(close, passage.places(depth, rows), history, f, normals, local) if follows else []

@@ -102,7 +102,7 @@ def over_some(history, moments, passage, depth, places, known, worst=None):
         points = slice(first, first + AT_ONCE)
         part = history[points, moments]
         whole = [values[points] for values in known] if known else None
-        f[points], normals = findley.search(part, local.kappa, criterion=local.criterion, known=whole, worst=passage.worst)
+        f[points], normals = findley.search(part, local.kappa, criterion=local.criterion, known=whole, worst=passage.brief)
         worst = worse(worst, lambda n, first=first: places(first + n), part, f[points], normals, local)
     return f, worst
 

@@ -204,6 +204,17 @@ def test_the_worst_alone_is_that_of_all_and_takes_a_part_of_the_planes(taichi_cp
         assert left_out.sum() > 20 and few.sum() < 0.5 * all_.sum()
 
 
+def test_needed_points_are_searched_besides_the_worst(taichi_cpu):
+    h, needed = passages(60, 40), np.arange(60) % 5 == 2
+    h *= (np.linspace(0.2, 1.0, 60) / findley.search(h, 0.3)[0])[:, None, None]
+    f, normals = findley.search(h, 0.3)
+    found, planes = findley.search(h, 0.3, worst=True, needed=needed)
+    some = needed | (f >= 0.9 * f.max())
+    np.testing.assert_array_equal(found[some], f[some])
+    np.testing.assert_array_equal(planes[some], normals[some])
+    assert np.isnan(planes[:, 0]).sum() > 20
+
+
 def test_fewer_moments_search_the_points_that_the_worst_alone_left_out(taichi_cpu):
     h = passages(60, 40)
     known, part = findley.search(h, 0.3, worst=True), h[:, 20:]

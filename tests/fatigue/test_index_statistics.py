@@ -68,6 +68,25 @@ def test_a_search_has_them_at_the_surface_and_below(taichi_cpu):
     assert at_limit["cycles_above_1"] >= 1 and 0 < at_limit["statistics"]["cycles_above_1"] < 3
 
 
+def test_a_sparing_search_has_all_numbers_with_bars(taichi_cpu):
+    """As coarse-grid runs make it: the worst points, also of the early moments, and the points that the feature passes."""
+    scene = tehl.scene("gear").replace(**{"thermal.on": False, "feature.width": 0.4 * 0.36216e-3})
+    whole, brief = Rolling(scene, 16, 17), Rolling(scene, 16, 17)
+    brief.sparing = True
+    every, few = (assessment.run(scene, reader, until=-0.2, alone=False) for reader in (whole, brief))
+
+    def with_bars(found):
+        """The numbers of a search that have error bars."""
+        largest = {name: part["Fi_max"] for name, part in coarse_runs.indices(found.summaries).items()}
+        spread = [(name, [part[key] for key in (*index_statistics.NUMBERS, "points")])
+                  for name, part in coarse_runs.distributions(found.summaries)]
+        return largest, coarse_runs.von_mises_parts(found.summaries), spread
+
+    assert with_bars(few) == with_bars(every)
+    left_out = np.isnan(few.plane_theta)
+    assert left_out.sum() > 0.5 * left_out.size and not left_out[few.passed > 0].any()
+
+
 @pytest.mark.parametrize("cell, chosen", [(0.03, 0.05), (0.01, 0.02), (0.6, 0.5)])
 def test_the_worst_depth_is_one_that_a_coarser_grid_sees(cell, chosen):
     """Under an index that falls with depth, the first of a cell at least; all depths stay listed."""

@@ -35,8 +35,9 @@ class StressHistories:
     of the surface, m, and `entries`, the number of its entry.
 
     reader: has x, y (m), time (s), len, feature_x(n) (m) and fields(n, names) (SI); entry 0 is the steady start. It may have
-    `searched`, {surface name: ((x' from, to), (y from, to), (depth from, to)) m} of the points to search, and `worst`, whether
-    only the worst of these points is needed. positions: (entries,) m, of the first feature. around: half width (in a) of the
+    `searched`, {surface name: ((x' from, to), (y from, to), (depth from, to)) m} of the points to search, `worst`, whether
+    only the worst of these points is needed, and `sparing`, whether only numbers with an error bar are: the worst points, and
+    statistics of the index. positions: (entries,) m, of the first feature. around: half width (in a) of the
     part around one small feature. surface: the :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` whose points these are,
     by default that of the first feature.
     """
@@ -44,6 +45,7 @@ class StressHistories:
     block = 16  # entries whose stresses are computed together
     deepest = np.inf  # depth down to which points are searched, m
     worst, steel = False, True  # whether only the worst point is searched, and whether von Mises stresses are
+    sparing = False  # whether only points are searched that are in statistics or may be the worst
     left = None  # residual stress by plastic flow: a :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`
 
     def __init__(self, scene, reader, positions, around=AROUND, surface=None):
@@ -51,7 +53,7 @@ class StressHistories:
         self.surface, self.a = surface or scene.reference, Scales.of(scene).a
         self.strength = Strength(scene.fatigue, self.surface)
         self.loads_of = self._names()
-        self.worst = getattr(reader, "worst", False)
+        self.worst, self.sparing = getattr(reader, "worst", False), getattr(reader, "sparing", False)
         self.left = getattr(reader, "residual_fields", {}).get(self.surface.name)
         self.path, centres = (float(positions[0]), float(positions[-1])), self.surface.pace * positions
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
@@ -73,6 +75,11 @@ class StressHistories:
         self.entries = np.concatenate([0 * before, np.arange(len(centres)), 0 * after]).astype(int)
         self._widen()
         self._choose_moments()
+
+    @property
+    def brief(self):
+        """Whether some points are searched only as far as the worst ones need it."""
+        return self.worst or self.sparing
 
     def _keep(self, ends):
         """Keep the points with x', y and depth between `ends`, three (low, high) in m; None keeps all."""

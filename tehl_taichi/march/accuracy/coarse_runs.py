@@ -230,6 +230,7 @@ def values(scene, notify=lambda: None, until=lambda: None):
     from tehl_taichi.march.passage import march
 
     reader, run_in = _passages(scene, notify) if scene.runs_in else (assessment.Snapshots(_steps(march(scene), notify)), None)
+    reader.sparing = True
     with_fatigue = scene.has_fatigue and len(reader) > 2
     found = assessment.run(scene, reader, until=until(), alone=False).summaries if with_fatigue else None
     return passage_readings(scene, reader, lambda name: np.array([shot.scalars[name] for shot in reader.items]), found, run_in)
