@@ -66,8 +66,10 @@ def bounds(S: ti.template(), some: ti.template(), row, steps, x, y, z, middle, k
         a, b, c, normal = traction(stress(S, row, t), x, y, z)
         n = normal - cn
         da, db, dc = a - ca - n * x, b - cb - n * y, c - cc - n * z
-        far = ti.max(far, da * da + db * db + dc * dc)
-        top, mean = ti.max(top, normal), ti.max(mean, mean_stress(S, row, t))
+        size = da * da + db * db + dc * dc
+        # by select: one instruction, where ti.max takes three for numbers that may be nan
+        far, top = ti.select(size > far, size, far), ti.select(normal > top, normal, top)
+        mean = ti.max(mean, mean_stress(S, row, t))
     return value_of(rule, ti.sqrt(far) * (1 + SLACK), top + SLACK * ti.abs(top), mean + SLACK * ti.abs(mean), kappa)
 
 
@@ -138,10 +140,11 @@ def best_of_ring(S: ti.template(), some: ti.template(), rings: ti.template(), a:
         for k in ti.static(range(LANES)):
             if bound[k] > top:
                 top, at, trial = bound[k], k, vec3(x[k], y[k], z[k])
-        if top > best or prune == 0:
-            v, m = plane_value(S, some, a, b, row, steps, trial, kappa, rule)
-            if v > best:
-                n, best, mid = trial, v, m
+        if top <= best and prune == 1:  # so are the others
+            break
+        v, m = plane_value(S, some, a, b, row, steps, trial, kappa, rule)
+        if v > best:
+            n, best, mid = trial, v, m
         for k in ti.static(range(LANES)):
             if k == at:
                 bound[k] = -1e300
@@ -177,7 +180,7 @@ def refine(S: ti.template(), some: ti.template(), rings: ti.template(), a: ti.te
         few, weight = moments, tie(rule, kappa, step)
         if ti.static(rule.outer):
             if stage * prune == 1 and halving > 0:
-                few = deciding(S, some, row, moments, n, middle, REACH * step)
+                few = deciding(S, some, a, b, row, moments, n, middle, REACH * step)
         if ti.static(rule.sheared):  # the weight has changed
             best, middle = plane_value(S, some, a, b, row, moments, n, weight, rule)
         if halving == 0 or few < moments:

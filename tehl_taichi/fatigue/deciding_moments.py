@@ -11,23 +11,23 @@ from tehl_taichi.fatigue.plane_components import stress, traction
 
 
 @ti.func
-def deciding(S: ti.template(), some: ti.template(), row, count, n, middle, reach):
+def deciding(S: ti.template(), some: ti.template(), a: ti.template(), b: ti.template(), row, count, n, middle, reach):
     """Sort the moments some[row, :count] so that those that may matter on planes within `reach` (rad) of n come first, with
-    shear relative to that of the stress `middle`; returns their number.
+    shear relative to that of the stress `middle`; returns their number. Scratch: a, b.
     """
     far, top = -1e300, -1e300
     for q in range(count):
         shear, normal, turned = ends(stress(S, row, some[row, q]) - middle, n, reach)
         far, top = ti.max(far, shear - turned), ti.max(top, normal - turned)
+        a[row, q], b[row, q] = shear + turned, normal + turned
     q, left = 0, count
     while q < left:
-        t = some[row, q]
-        shear, normal, turned = ends(stress(S, row, t) - middle, n, reach)
-        if shear + turned >= far or normal + turned >= top:
+        if a[row, q] >= far or b[row, q] >= top:
             q += 1
         else:
             left -= 1
-            some[row, q], some[row, left] = some[row, left], t
+            some[row, q], some[row, left] = some[row, left], some[row, q]
+            a[row, q], b[row, q] = a[row, left], b[row, left]
     return left
 
 

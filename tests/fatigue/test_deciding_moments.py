@@ -21,14 +21,16 @@ def chosen(history, n, middle, reach):
     from tehl_taichi.fatigue.plane_components import vec6
 
     some, count = np.arange(len(history), dtype=np.int32)[None], np.zeros(1, np.int32)
+    scratch = np.empty((1, len(history))), np.empty((1, len(history)))
 
     @ti.kernel
     def choose(reach: ti.f64, n: vec3, middle: vec6, S: ti.types.ndarray(dtype=ti.f64, ndim=3),
-               some: ti.types.ndarray(dtype=ti.i32, ndim=2), count: ti.types.ndarray(dtype=ti.i32, ndim=1)):
+               some: ti.types.ndarray(dtype=ti.i32, ndim=2), a: ti.types.ndarray(dtype=ti.f64, ndim=2),
+               b: ti.types.ndarray(dtype=ti.f64, ndim=2), count: ti.types.ndarray(dtype=ti.i32, ndim=1)):
         for row in range(1):
-            count[row] = deciding_moments.deciding(S, some, row, S.shape[1], n, middle, reach)
+            count[row] = deciding_moments.deciding(S, some, a, b, row, S.shape[1], n, middle, reach)
 
-    choose(reach, vec3(*n), vec6(*middle), history[None].copy(), some, count)
+    choose(reach, vec3(*n), vec6(*middle), history[None].copy(), some, *scratch, count)
     return some[0, : count[0]], some[0, count[0] :]
 
 
