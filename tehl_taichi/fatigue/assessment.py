@@ -89,7 +89,7 @@ def run(scene, reader, progress=None, until=None, alone=True):
 
 def _with_length(result, scene, surface, reader, centres, progress):
     """The result with the index of stresses averaged over fatigue.length."""
-    found = material_length.part(scene, surface, reader, centres, progress)
+    found = material_length.part(scene, surface, reader, centres, progress, result)
     return replace(result, summary={**result.summary, "averaged": found})
 
 

@@ -9,6 +9,7 @@ Thermal stress changes slowly at a point, so it is interpolated between the mome
 and its loads do not cause); but for that of a hot surface layer that is held in its plane, which follows its temperature.
 """
 
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +19,6 @@ from tehl_taichi.fatigue.stress import held_heat
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import worst_of
-from tehl_taichi.values.interpolation import lagrange
 
 SAME = 1e-12  # m: moments whose features are closer to each other are one
 POINTS = 4  # moments of the run that a polynomial uses
@@ -73,16 +73,26 @@ def _at_all_moments(scene, passage, reader, points):
         return points
     reader.searched = {passage.surface.name: _box(passage, points)}
     loads = StressHistories(_of_loads(scene, passage, centres[new][0]), reader, centres, surface=passage.surface)
-    depths = sorted({point.depth for point in points})
-    rows = {point.y: int(np.argmin(np.abs(loads.reader.y - point.y))) for point in points}
-    found = dict(zip(rows, histories_of(loads, depths, [(row, False) for row in rows.values()])))
-    if scene.has_thermal_stress and depths[0] == 0.0:
-        held = held_heat.histories(loads, sorted(rows.values()))
-        for y, row in rows.items():
-            found[y][0] += held[row]
-    return [_improved(point, passage.positions, loads.positions,
-                      found[point.y][depths.index(point.depth), int(np.argmin(np.abs(loads.x - point.x)))])
+    histories = _histories(scene, loads, points)
+    return _searched([_with_moments(point, passage.positions, loads.positions, history)
+                      for point, history in zip(points, histories)])
+
+
+def _histories(scene, loads, points):
+    """The history (moments + 1, 6) Pa of the loads, and of the heat of a surface layer, of each of some points; loads: their
+    StressHistories."""
+    depths, rows = sorted({point.depth for point in points}), sorted({_row(loads, point) for point in points})
+    found = dict(zip(rows, histories_of(loads, depths, [(row, False) for row in rows])))
+    if scene.has_thermal_stress and not depths[0]:
+        for row, held in held_heat.histories(loads, rows).items():
+            found[row][0] += held
+    return [found[_row(loads, point)][depths.index(point.depth), int(np.argmin(np.abs(loads.x - point.x)))]
             for point in points]
+
+
+def _row(loads, point):
+    """Number of the row of a point."""
+    return int(np.argmin(np.abs(loads.reader.y - point.y)))
 
 
 def _of_loads(scene, passage, start):
@@ -101,8 +111,8 @@ def _box(passage, points):
     return around([one.x for one in points], passage.dx), around([one.y for one in points], cell), (0.0, np.inf)
 
 
-def _improved(point, steps, moments, history):
-    """A WorstPoint by all moments up to its last one.
+def _with_moments(point, steps, moments, history):
+    """A WorstPoint with the stress of all moments up to its last one, without a new plane.
 
     steps, moments: positions of the feature (m), without the unloaded moment, of the search and of the `history` (moments + 1,
     6) Pa of the loads, which begins later.
@@ -117,8 +127,19 @@ def _improved(point, steps, moments, history):
     positions = np.concatenate([steps, moments[new]])
     order = np.argsort(positions)
     stress = np.concatenate([np.concatenate([point.stress[:-1], history[new] + rest])[order], point.stress[-1:]])
-    f, normals = findley.search(stress[None], point.local.kappa, criterion=point.local.criterion)
-    return replace(point, f=max(float(f[0]), point.f), stress=stress, normal=normals[0], positions=positions[order])
+    return replace(point, stress=stress, positions=positions[order])
+
+
+def _searched(points):
+    """The WorstPoints with the values and planes of their histories; those with equal moments at once."""
+    out = list(points)
+    for group in {(point.depth, len(point.stress)) for point in points if point.positions is not None}:
+        some = [n for n, point in enumerate(points) if (point.depth, len(point.stress)) == group]
+        local = points[some[0]].local
+        f, normals = findley.search(np.stack([points[n].stress for n in some]), local.kappa, criterion=local.criterion)
+        for n, value, normal in zip(some, f, normals):
+            out[n] = replace(points[n], f=max(float(value), points[n].f), normal=normal)
+    return out
 
 
 def between(known, values, at):
@@ -126,6 +147,13 @@ def between(known, values, at):
     through the POINTS nearest ones."""
     count = min(POINTS, known.size)
     first = np.clip(np.searchsorted(known, at, side="right") - count // 2, 0, known.size - count)
-    weights = np.array([lagrange(known[n : n + count], to) for n, to in zip(first, at)])
-    near = values[first[:, None] + np.arange(count)]
-    return np.einsum("mn,mn...->m...", weights, near)
+    near = first[:, None] + np.arange(count)
+    return np.einsum("mn,mn...->m...", _weights(known[near], at), values[near])
+
+
+def _weights(nodes, at):
+    """Weights (m, n) of the values at `nodes` (m, n) for the value at `at` (m,): of Lagrange's polynomial."""
+    out = np.ones_like(nodes)
+    for n, m in itertools.permutations(range(nodes.shape[1]), 2):
+        out[:, n] *= (at - nodes[:, m]) / (nodes[:, n] - nodes[:, m])
+    return out

@@ -67,13 +67,14 @@ class StressHistories:
         self.y = reader.y[self.rows]
         # as long as all points need: the history of a point does not depend on the choice of searched points
         before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
+        ends = self.x[0], self.x[-1]
         self._keep(getattr(reader, "searched", {}).get(self.surface.name))
         self.centres = np.concatenate([before, centres, after])
         pace = self.surface.pace
         self.positions = np.concatenate([positions[0] + (before - centres[0]) / pace, positions,
                                          positions[-1] + (after - centres[-1]) / pace])
         self.entries = np.concatenate([0 * before, np.arange(len(centres)), 0 * after]).astype(int)
-        self._widen()
+        self._widen(*ends)
         self._choose_moments()
 
     @property
@@ -137,10 +138,11 @@ class StressHistories:
         """Cell of the run along x, m; the cell `dx` of a reader with a fine window is smaller."""
         return self.dx * (self.reader.window.factor if has_window(self.reader) else 1)
 
-    def _widen(self):
-        """Set `grid_x`, the grid with unloaded columns (`pad`) on both sides, which no material point leaves."""
+    def _widen(self, first, last):
+        """Set `grid_x`, the grid with unloaded columns (`pad`) on both sides, which no material point leaves; first, last: of
+        all points, x' m."""
         x0, x1 = self.reader.x[0], self.reader.x[-1]
-        low, high = self.centres.min() + self.x[0], self.centres.max() + self.x[-1]
+        low, high = self.centres.min() + first, self.centres.max() + last
         self.pad = tuple(max(0, int(np.ceil(gap / self.dx)) + 2) for gap in (x0 - low, high - x1))
         self.grid_x = x0 + (np.arange(self.reader.x.size + sum(self.pad)) - self.pad[0]) * self.dx
         # loads of a line contact are mirrored about the first row: the plane of symmetry, or (whole domain) a row far away

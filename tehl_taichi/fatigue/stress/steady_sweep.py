@@ -43,4 +43,4 @@ class SteadySweep(StressHistories):
         count = int(2 * LOADED * self.a / self.dx) + 1
         self.centres = self.positions = reader.x[0] + (first + np.arange(count)) * self.dx
         self.entries = np.zeros(count, int)
-        self._widen()
+        self._widen(self.x[0], self.x[-1])

@@ -21,7 +21,8 @@ class Criterion(Entry):
     tau: shear amplitude of a plane, the radius of the smallest circle around its shear path; normal: its largest normal stress;
     mean: the largest mean stress. chord: tau is half the longest chord of the path. momentary: all three belong to one moment
     (tau: distance from the circle's centre), and the worst moment counts. sheared: the plane is that of the largest tau; of
-    planes with equal tau the one with the largest normal stress. sensitivity: text of the stress to which kappa is the
+    planes with equal tau the one with the largest normal stress. convex: the value of an average of stress histories is at most
+    the average of their values. sensitivity: text of the stress to which kappa is the
     sensitivity; constants(torsion/bending): (kappa, limit/torsion) at which value is the limit for both fatigue limits, for
     ratios between least and most.
     """
@@ -34,6 +35,7 @@ class Criterion(Entry):
     chord: bool = False
     momentary: bool = False
     sheared: bool = False
+    convex: bool = False
 
     @property
     def falls(self):

@@ -20,7 +20,7 @@ def constants(ratio):
 
 FINDLEY = Criterion(
     name="findley", says="shear amplitude + kappa * largest normal stress, on the plane of the largest sum",
-    source="Findley 1959", value=value, sensitivity="normal stress", constants=constants,
+    source="Findley 1959", value=value, convex=True, sensitivity="normal stress", constants=constants,
     checked=(Checked("by hand, bending: (S/2)(kappa + sqrt(1 + kappa^2))", 100.0, lambda: FINDLEY.in_bending(100.0, 0.75),
                      1e-8),
              Checked("by hand, torsion: S sqrt(1 + kappa^2)", 125.0, lambda: FINDLEY.in_torsion(100.0, 0.75), 1e-8),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import depth_profile, depth_search, every_moment, findley
+from tehl_taichi.fatigue import depth_profile, depth_search, every_moment, findley, material_length
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.stress import held_heat
 from tehl_taichi.fatigue.stress.averaging import AveragedReader, averaged_reader
@@ -211,6 +211,24 @@ def test_critical_points_are_followed_between_the_steps_of_the_run(surface, shar
         f = float(findley.search(stress[None], new.local.kappa)[0][0])
         assert new.f >= old.f and abs(new.f - f) < 0.01 * f
     assert top.f.max() == top.worst.f > layers[0].worst.f
+
+
+@pytest.mark.parametrize("scene", [GEAR, OFF_AXIS], ids=["half domain", "off the axis"])
+def test_the_worst_averaged_stress_is_found_among_some_points(scene):
+    scene = scene.replace(**{"fatigue.length": 6e-5})
+    for reader in (zoomed(scene).base, zoomed(scene)):
+        centres = np.array([reader.feature_x(n) for n in range(len(reader))])
+        averages = averaged_reader(reader, scene.fatigue.length)
+        found = SimpleNamespace(numbers={"sigma_eF_Pa": 4e8})
+        for surface in scene.surfaces:
+            passage = StressHistories(scene, reader, centres, surface=surface)
+            found.feature_frame_x, found.feature_frame_y = passage.x, passage.y
+            found.findley_stress = layer(scene, passage, 0.0, lambda done, total: None, None).f
+            whole = material_length._passage(scene, surface, averages, centres)
+            (some, box), (all_, _) = (material_length._surface(scene, whole, averages, centres, lambda done, total: None, one)
+                                      for one in (found, None))
+            assert (some.worst.x, some.worst.y) == (all_.worst.x, all_.worst.y) and some.worst.f == pytest.approx(all_.worst.f)
+            assert box.x.size * box.y.size < 0.9 * whole.x.size * whole.y.size and averages.searched == {}
 
 
 @pytest.mark.parametrize("srr, x_end", [(-0.6, 0.2), (0.4, 0.0), (1.0, 0.2)])
