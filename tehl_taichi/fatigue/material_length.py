@@ -24,7 +24,7 @@ def counts(scene, x):
 
 def part(scene, surface, reader, centres, progress, found=None):
     """Part "averaged" of the summary of one body; centres: of the first feature, m; found: SearchResult of its stresses at
-    points, which tells where the averaged ones may be the worst (None: search all points); other arguments as in
+    points, which bound the averaged ones (None: search all points); other arguments as in
     :func:`tehl_taichi.fatigue.assessment.run`.
     """
     averages, centres = averaged_reader(reader, scene.fatigue.length), np.asarray(centres)
