@@ -8,6 +8,7 @@ import numpy as np
 
 from tehl_taichi.runs.single_run import run_or_resume
 from tehl_taichi.scene import scene
+from tehl_taichi.view.zoom_window import ZoomWindow
 
 GRID, FACTOR = (128, 32), 4
 QUICK_GRID, QUICK_FACTOR = (64, 16), 2
@@ -15,6 +16,7 @@ SLIPS = {"SRR -0.12": -0.12, "SRR 0": 0.0, "SRR +0.12": 0.12}
 FEATURES = {"asperity": 1.5e-6, "dent": -1.5e-6}
 # {number: (where it is in a summary, unit, that in SI)}
 NUMBERS = {"p_max": (("transient", "p_max_Pa"), "GPa", 1e9), "h_min": (("transient", "h_min_m"), "um", 1e-6),
+           "h_middle": (("middle", "h_min_m"), "um", 1e-6),
            "film_max": (("transient", "film_max_C"), "degC", 1.0),
            **{f"Fi {body}, {name}": (("fatigue_by_surface", body, *place, "Fi_max"), "", 1.0) for body in "ab"
               for name, place in (("surface", ()), ("below", ("below",)), ("surface, averaged", ("averaged",)),
@@ -82,8 +84,16 @@ def _file(name):
 def _finished(description, path, threads):
     """(summary, s) of a run."""
     began = time.perf_counter()
-    summary = run_or_resume(description, path, threads=threads).summary
+    run = run_or_resume(description, path, threads=threads)
+    summary = {**run.summary, "middle": {"h_min_m": _film_in_the_middle(run.store)}}
     return summary, max(time.perf_counter() - began, summary["wall_s"])
+
+
+def _film_in_the_middle(store):
+    """Smallest film (m) with the feature in the middle of the contact; in the window, if the run has one."""
+    n, window = int(np.argmin(np.abs([store.feature_x(n) for n in range(1, len(store))]))) + 1, ZoomWindow.of(store)
+    reader = window if window and n in window else store
+    return float(np.min(reader.fields(n, ["film"])["film"]))
 
 
 def _row(case, number, coarse, zoomed, fine):
@@ -106,7 +116,7 @@ def _value(summary, place):
 
 
 # columns of the table, and the numbers that they show
-SHOWN = {"p_max, GPa": "p_max", "h_min, um": "h_min", "film_max, degC": "film_max",
+SHOWN = {"p_max, GPa": "p_max", "h_min, um": "h_min", "h_middle, um": "h_middle", "film_max, degC": "film_max",
          **{f"Fi {body} {part}": f"Fi {body}, {part}, averaged" for body in "ab" for part in ("surface", "below")}}
 COLUMNS = ("case", *SHOWN, "time, s")
 
