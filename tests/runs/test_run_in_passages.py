@@ -17,6 +17,8 @@ from tehl_taichi.plastic.run_in import RunInState
 from tehl_taichi.report import verdict
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.summary import result_warnings, summary_rows
+from tehl_taichi.scene.scales import Scales
+from tehl_taichi.view.zoom_window import ZoomWindow
 
 STEEL = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "feature.height": 3e-6,
                                       "time.run_in": 2, "bodies.a.yield_stress": 2.2e9, "numerics.estimate_error": False})
@@ -137,17 +139,22 @@ def test_a_window_has_the_surface_and_the_residual_stress_of_its_run(done, tmp_p
 @pytest.mark.slow
 def test_a_window_with_temperatures_has_the_surface_heat_and_residual_stress_after_run_in(tmp_path, monkeypatch):
     """In one command; as a thermal passage on a grid twice as fine over the same surfaces and steel of both bodies. Any
-    surface will do, so one round leaves it. Up to 1.2 a: later a drop of oil leaves under a pressure one cell wide."""
+    surface will do, so one round leaves it. Up to 0.9 a: later oil leaves the touching outlet under a pressure one cell wide,
+    where temperatures have two solutions on 64 columns (230 and 303 deg C at 0.96 a; 233 on 128 columns)."""
     monkeypatch.setattr(run_in, "ROUNDS", 1)
     scene = STEEL.replace(**{"thermal.on": True, "time.run_in": 1, "zoom.factor": 2, "bodies.b.yield_stress": 2.2e9,
-                             "fatigue.to_x": 1.2})
+                             "fatigue.to_x": 0.9})
     found = tehl.run(scene, tmp_path / "hot.zarr", threads=2)
-    state, own, base = found.store.run_in, found.summary["transient"], found.summary["zoom"]["base"]
+    state, end, window = found.store.run_in, 0.9 * Scales.of(scene).a, ZoomWindow.of(found.store)
     fine = scene.replace(**{"grid.nx": 128, "grid.ny": 32, "time.run_in": 0, "zoom.factor": 0})
     reader = Snapshots(march(fine, changes=state.changes), state.residual_fields)
-    for name in ("p_max_Pa", "film_max_C", "surface_a_max_C", "surface_b_max_C"):
-        there = max(shot.scalars[name] for shot in reader.items[1:])
-        assert abs(own[name] - there) < max(1e-3 * there, 0.3 * abs(base[name] - there)), name
+    for name in ("pressure", "temperature_mid", "temperature_a", "temperature_b"):
+        own, base, there = (max(float(np.max(one.fields(n, (name,))[name])) for n in entries if one_x(n) <= end)
+                            for one, one_x, entries in (
+                                (window, found.store.feature_x, window.entries.tolist()),
+                                (found.store, found.store.feature_x, range(1, len(found.store))),
+                                (reader, reader.feature_x, range(1, len(reader)))))
+        assert abs(own - there) < max(1e-3 * there, 0.3 * abs(base - there)), (name, own, base, there)
     searched = assessment.run(fine, reader, alone=False).summaries
     for body in "ab":
         now, there = found.summary["fatigue_by_surface"][body], searched[body]
