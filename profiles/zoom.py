@@ -90,10 +90,14 @@ def _finished(description, path, threads):
 
 
 def _film_in_the_middle(store):
-    """Smallest film (m) with the feature in the middle of the contact; in the window, if the run has one."""
+    """Smallest film (m) under the feature in the middle of the contact; in the window, if the run has one."""
     n, window = int(np.argmin(np.abs([store.feature_x(n) for n in range(1, len(store))]))) + 1, ZoomWindow.of(store)
-    reader = window if window and n in window else store
-    return float(np.min(reader.fields(n, ["film"])["film"]))
+    feature, x, y, reader = store.scene.features[0], store.x, store.y, store
+    if window and n in window:
+        x, y, reader = window.lefts[window.place[n]] + window.x, window.y, window
+    under = [np.abs(at - centre) <= reach for at, centre, reach in
+             ((x, store.feature_x(n), feature.reach), (y, feature.y, feature.reach_y))]
+    return float(np.min(reader.fields(n, ["film"])["film"][np.ix_(*under)]))
 
 
 def _row(case, number, coarse, zoomed, fine):
