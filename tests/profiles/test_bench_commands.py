@@ -326,7 +326,8 @@ def test_zoom(tmp_path, monkeypatch):
         name: one.replace(**{"fatigue.surfaces": "a", "time.x_end": 0.2, "numerics.estimate_error": False})
         for name, one in work(quick).items()})
     text, found = done(tmp_path, "zoom", "zoom", "--quick", "--threads", 2)
-    at_points = ["p_max", "h_min", "h_middle", "Fi a, surface", "Fi a, below"]  # no temperatures; cells longer than the material length
+    # no temperatures; cells longer than the material length
+    at_points = ["p_max", "h_min", "h_middle", "Fi a, surface", "Fi a, below"]
     assert [row["number"] for row in found["rows"]] == at_points
     for row in found["rows"]:
         assert row["off"] == pytest.approx(abs(row["zoom"] / row["fine"] - 1))
