@@ -17,7 +17,7 @@ LOW = 1.03  # first planes are so much too low (`NEAR` of findley.py)
 class Candidates:
     """Points of the surface of one body, from the SearchResult `found` of its stresses at points.
 
-    reader: the AveragedReader; low: whether `found` has only the values of first planes. Values are those of the criterion over
+    reader: the AveragedReader; low: whether `found` may have values of first planes. Values are those of the criterion over
     the limit, as an index.
     """
 

@@ -45,7 +45,7 @@ def _surface(scene, passage, averages, centres, progress, found):
     search `found` or if the criterion is not convex."""
     if found is None or not CRITERIA[scene.fatigue.criterion].convex:
         return layer(scene, passage, 0.0, progress, None), passage
-    candidates = Candidates(found, averages, getattr(averages.reader, "worst", False))
+    candidates = Candidates(found, averages, any(getattr(averages.reader, kind, False) for kind in ("worst", "sparing")))
     box = candidates.first()
     while True:
         some = _passage(scene, passage.surface, averages, centres, box)

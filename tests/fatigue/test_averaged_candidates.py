@@ -68,3 +68,15 @@ def test_low_values_of_first_planes_are_raised():
     box = (2.5, 3.5), (-0.5, 0.5)
     boxes = [averaged_candidates.Candidates(found, reader, low).wider(box, 1.0) for low in (False, True)]
     assert boxes == [None, ((2.5, 6.5), (-0.5, 0.5))]
+
+
+@pytest.mark.parametrize("kind", [None, "worst", "sparing"])
+def test_searches_with_first_planes_have_raised_bounds(monkeypatch, kind):
+    """Of windows for error bars, and of coarse-grid runs."""
+    scene, lows, real = tehl.scene("gear").replace(**ISOTHERMAL, **{"fatigue.length": 40e-6}), [], averaged_candidates.Candidates
+    reader = Rolling(scene, 32, 5)
+    if kind:
+        setattr(reader, kind, True)
+    monkeypatch.setattr(material_length, "Candidates", lambda *given: lows.append(given[-1]) or real(*given))
+    assessment.run(scene, reader, alone=False)
+    assert lows == [bool(kind)] * 2
