@@ -9,7 +9,6 @@ Thermal stress changes slowly at a point, so it is interpolated between the mome
 and its loads do not cause); but for that of a hot surface layer that is held in its plane, which follows its temperature.
 """
 
-import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +17,7 @@ from tehl_taichi.fatigue import findley
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import worst_of
+from tehl_taichi.values.interpolation import lagrange
 
 SAME = 1e-12  # m: moments whose features are closer to each other are one
 POINTS = 4  # moments of the run that a polynomial uses
@@ -149,12 +149,5 @@ def between(known, values, at):
     count = min(POINTS, known.size)
     first = np.clip(np.searchsorted(known, at, side="right") - count // 2, 0, known.size - count)
     near = first[:, None] + np.arange(count)
-    return np.einsum("mn,mn...->m...", _weights(known[near], at), values[near])
-
-
-def _weights(nodes, at):
-    """Weights (m, n) of the values at `nodes` (m, n) for the value at `at` (m,): of Lagrange's polynomial."""
-    out = np.ones_like(nodes)
-    for n, m in itertools.permutations(range(nodes.shape[1]), 2):
-        out[:, n] *= (at - nodes[:, m]) / (nodes[:, n] - nodes[:, m])
-    return out
+    weights = [np.broadcast_to(weight, at.shape) for weight in lagrange(known[near].T, at)]
+    return np.einsum("nm,mn...->m...", weights, values[near])

@@ -4,5 +4,5 @@ import math
 
 
 def lagrange(at, to):
-    """Weights of the values at positions `at` for the value at `to` (a number or an array)."""
-    return [math.prod((to - b) / (a - b) for b in at if b != a) for a in at]
+    """Weights of the values at positions `at` (each a number or an array) for the value at `to` (likewise)."""
+    return [math.prod((to - b) / (a - b) for m, b in enumerate(at) if m != n) for n, a in enumerate(at)]
