@@ -4,6 +4,7 @@ temperature (:mod:`tehl_taichi.fatigue.stress.thermal_stress` has the rest)."""
 import numpy as np
 
 from tehl_taichi.fatigue.stress.half_space import COMPONENTS
+from tehl_taichi.fatigue.stress.thermal_stress import stiffness
 from tehl_taichi.fatigue.stress.windowed import POINTS, is_mirrored
 from tehl_taichi.values.refining import Refining
 
@@ -13,13 +14,13 @@ def histories(passage, rows):
 
     passage: StressHistories of a reader with a window; rows: numbers of fine rows.
     """
-    first, body, out = min(rows), passage.surface.body, {}
+    first, out = min(rows), {}
     held = np.zeros((passage.x.size, max(rows) + 1 - first, passage.centres.size + 1, 1))
     for block in passage.blocks:
         passage.follow(held, {int(entry): _rises(passage, int(entry), first, held.shape[1]) for entry in block})
     for row in rows:
         out[row] = np.zeros((passage.x.size, held.shape[2], len(COMPONENTS)))
-        out[row][..., :2] = -body.E * body.alpha / (1 - body.nu) * held[:, row - first]
+        out[row][..., :2] = -stiffness(passage.surface.body) * held[:, row - first]
     return out
 
 

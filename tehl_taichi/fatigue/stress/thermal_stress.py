@@ -75,11 +75,16 @@ class WaveNumbers(Waves):
         return (turn[: self.rows] + back) * (1 - odd * np.isin(np.arange(self.rows), (0, self.rows - 1)))
 
 
+def stiffness(body):
+    """Stress (Pa) along the surface of a layer that is held in its plane, per K of its temperature; under pressure."""
+    return body.E * body.alpha / (1 - body.nu)
+
+
 class SurfaceHeat:
     """A body and the temperatures that pass over its surface; arguments as for :class:`ThermalStress`."""
 
     def __init__(self, body, rises, x, y, front, columns, a, mirrored):
-        self.stiffness, self.nu, self.front = body.E * body.alpha / (1 - body.nu), body.nu, front
+        self.stiffness, self.nu, self.front = stiffness(body), body.nu, front
         self.dx, rows = x[1] - x[0], y.size
         self.taper = math.ceil(TAPER * a / self.dx)
         self.columns = columns
