@@ -26,8 +26,8 @@ class Layer:
     Maps (x', rows): f, value of the criterion (Pa); theta, phi, angles of the critical plane (degrees); sigma1, largest
     principal stress (Pa); cycles above the limit per passage (nan at points outside the sample). worst: the worst point. mises:
     the largest von Mises stress, or None. early: results of the early moments, or None. If the passage is brief, f is that of
-    `worst=True` of :func:`tehl_taichi.fatigue.findley.search`, and sigma1 and cycles are nan. close: the worst points, if the
-    reader of the passage has moments between those of the run.
+    `worst=True` of :func:`tehl_taichi.fatigue.findley.search`, and sigma1 and cycles are nan. close: the worst points at
+    the surface, if the reader of the passage has moments between those of the run.
     """
 
     depth: float
@@ -48,7 +48,7 @@ def layer(scene, passage, depth, progress, early):
     progress: called with (done, total); early: numbers of the moments that are also searched alone, or None.
     """
     parts, worst, peaks, close, sooner = [], None, [], [], _Early(scene, passage, depth, early)
-    follows = getattr(passage.reader, "every", None) is not None
+    follows = not depth and getattr(passage.reader, "every", None) is not None
     counts, local = index_statistics.weights(passage), passage.strength.at(depth)
     counted, needed = index_statistics.sample(counts) & (not passage.brief), (counts > 0) & (not passage.worst)
     for rows, history in _blocks(scene, passage, depth, progress):

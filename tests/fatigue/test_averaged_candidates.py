@@ -73,8 +73,8 @@ def test_low_values_of_first_planes_are_raised():
 @pytest.mark.parametrize("kind", [None, "worst", "sparing"])
 def test_searches_with_first_planes_have_raised_bounds(monkeypatch, kind):
     """Of windows for error bars, and of coarse-grid runs."""
-    scene, lows, real = tehl.scene("gear").replace(**ISOTHERMAL, **{"fatigue.length": 40e-6}), [], averaged_candidates.Candidates
-    reader = Rolling(scene, 32, 5)
+    scene = tehl.scene("gear").replace(**ISOTHERMAL, **{"fatigue.length": 40e-6})
+    lows, real, reader = [], averaged_candidates.Candidates, Rolling(scene, 32, 5)
     if kind:
         setattr(reader, kind, True)
     monkeypatch.setattr(material_length, "Candidates", lambda *given: lows.append(given[-1]) or real(*given))
