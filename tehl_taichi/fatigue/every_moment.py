@@ -70,8 +70,8 @@ def _at_all_moments(scene, passage, reader, points):
     new = np.abs(centres[:, None] - passage.positions).min(axis=1) > SAME
     if not (new := new & (centres > passage.positions[0]) & (centres < passage.positions[-1])).any():
         return points
-    reader.searched = {passage.surface.name: _box(passage, points)}
-    loads = StressHistories(_of_loads(scene, passage, centres[new][0]), reader, centres, surface=passage.surface)
+    loads = StressHistories(_of_loads(scene, passage, centres[new][0]), reader, centres, surface=passage.surface,
+                            box=_box(passage, points))
     histories = _histories(scene, loads, points)
     return _searched([_with_moments(point, passage.positions, loads.positions, history)
                       for point, history in zip(points, histories)])

@@ -58,10 +58,8 @@ def _surface(scene, passage, averages, centres, progress, found):
 def _passage(scene, surface, averages, centres, box=None):
     """StressHistories of averaged stresses, whose worst point is searched; box: ((x' from, to), (y from, to)) m of its
     points."""
-    before = averages.searched
-    averages.searched = {**before, surface.name: (*box, (0.0, np.inf))} if box else before
-    out = StressHistories(scene, averages, centres, surface=surface)
-    out.worst, out.steel, averages.searched = True, False, before
+    out = StressHistories(scene, averages, centres, surface=surface, box=box and (*box, (0.0, np.inf)))
+    out.worst, out.steel = True, False
     return out
 
 

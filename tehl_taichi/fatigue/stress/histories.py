@@ -39,7 +39,8 @@ class StressHistories:
     only the worst of these points is needed, and `sparing`, whether only numbers with an error bar are: the worst points, and
     statistics of the index. positions: (entries,) m, of the first feature. around: half width (in a) of the
     part around one small feature. surface: the :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` whose points these are,
-    by default that of the first feature.
+    by default that of the first feature. box: points to search, as `searched` of the reader has them for each surface, in place
+    of those.
     """
 
     block = 16  # entries whose stresses are computed together
@@ -48,7 +49,7 @@ class StressHistories:
     sparing = False  # whether only points are searched that are in statistics or may be the worst
     left = None  # residual stress by plastic flow: a :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`
 
-    def __init__(self, scene, reader, positions, around=AROUND, surface=None):
+    def __init__(self, scene, reader, positions, around=AROUND, surface=None, box=None):
         self.scene, self.reader, self.around, self.last_below = scene, reader, around, None
         self.surface, self.a = surface or scene.reference, Scales.of(scene).a
         self.strength = Strength(scene.fatigue, self.surface)
@@ -68,7 +69,7 @@ class StressHistories:
         # as long as all points need: the history of a point does not depend on the choice of searched points
         before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
         ends = self.x[0], self.x[-1]
-        self._keep(getattr(reader, "searched", {}).get(self.surface.name))
+        self._keep(box or getattr(reader, "searched", {}).get(self.surface.name))
         self.centres = np.concatenate([before, centres, after])
         pace = self.surface.pace
         self.positions = np.concatenate([positions[0] + (before - centres[0]) / pace, positions,
