@@ -69,9 +69,11 @@ def run(folder, quick=False, threads=None, progress=None):
     for name, description in cases(quick).items():
         say(f"{name}: coarse, with a window, fine")
         g = description.grid
-        found = [_finished(one, Path(folder) / f"{_file(name)}-{kind}.zarr", threads) for kind, one in (
+        runs = [_finished(one, Path(folder) / f"{_file(name)}-{kind}.zarr", threads) for kind, one in (
             ("coarse", description), (f"zoom{factor}", description.replace(**{"zoom.factor": factor})),
             ("fine", description.replace(**{"grid.nx": g.nx * factor, "grid.ny": g.ny * factor})))]
+        middle = _moment(runs[0][0].store, 0.0)[1]
+        found = [({**one.summary, "middle": {"h_min_m": _film_under(one.store, middle)}}, s) for one, s in runs]
         rows += [_row(name, number, *found) for number in NUMBERS
                  if all(_value(summary, NUMBERS[number][0]) is not None for summary, _ in found[1:])]
         yield rows
@@ -82,21 +84,27 @@ def _file(name):
 
 
 def _finished(description, path, threads):
-    """(summary, s) of a run."""
+    """(Run, s) of a finished run."""
     began = time.perf_counter()
     run = run_or_resume(description, path, threads=threads)
-    summary = {**run.summary, "middle": {"h_min_m": _film_in_the_middle(run.store)}}
-    return summary, max(time.perf_counter() - began, summary["wall_s"])
+    return run, max(time.perf_counter() - began, run.summary["wall_s"])
 
 
-def _film_in_the_middle(store):
-    """Smallest film (m) under the feature in the middle of the contact; in the window, if the run has one."""
-    n, window = int(np.argmin(np.abs([store.feature_x(n) for n in range(1, len(store))]))) + 1, ZoomWindow.of(store)
+def _moment(store, x):
+    """(entry, position in m) of the moment with the feature closest to x (m)."""
+    places = [store.feature_x(n) for n in range(1, len(store))]
+    n = int(np.argmin(np.abs(np.subtract(places, x))))
+    return n + 1, places[n]
+
+
+def _film_under(store, at):
+    """Smallest film (m) under the feature when it is closest to x = `at` (m); in the window, if the run has one."""
+    (n, centre), window = _moment(store, at), ZoomWindow.of(store)
     feature, x, y, reader = store.scene.features[0], store.x, store.y, store
     if window and n in window:
         x, y, reader = window.lefts[window.place[n]] + window.x, window.y, window
-    under = [np.abs(at - centre) <= reach for at, centre, reach in
-             ((x, store.feature_x(n), feature.reach), (y, feature.y, feature.reach_y))]
+    under = [np.abs(there - middle) <= reach for there, middle, reach in
+             ((x, centre, feature.reach), (y, feature.y, feature.reach_y))]
     return float(np.min(reader.fields(n, ["film"])["film"][np.ix_(*under)]))
 
 

@@ -36,6 +36,12 @@ def test_the_oil_that_passed_over_the_feature_is_inside():
     assert slow[1] > rolling[1] + 0.1 and fast[0] < rolling[0] - 0.1
 
 
+def test_isothermal_oil_has_more_room():
+    """It keeps what the inlet made of it beside the feature."""
+    w, warm = (Window.of(scene, 16) for scene in (GEAR, GEAR.replace(**{"thermal.on": True})))
+    assert 0.2 < (w.nx - warm.nx) * w.dx < 0.4 and 0.1 < (w.back - warm.back) * w.dx < 0.2
+
+
 def test_it_rides_with_its_surface_by_whole_cells():
     scene = dataclasses.replace(GEAR, features=(dataclasses.replace(GEAR.features[0], surface="b"),))
     w = Window.of(scene, 4)

@@ -203,3 +203,25 @@ def test_windows_that_move_one_after_the_other_are_those_that_move_together(runs
         assert one.entries == other.entries and one.origins == other.origins and not one.ended
         for name, fields_of in one.fields.items():
             assert all(np.array_equal(*pair) for pair in zip(fields_of, other.fields[name]))
+
+
+@pytest.mark.slow  # a passage, and two windows of it
+@pytest.mark.parametrize("srr", [-0.12, 0.12])
+def test_a_wider_window_has_the_same_film(srr):
+    """In a dent without temperatures, where the oil keeps for long what the inlet made of it."""
+    scene = tehl.scene("gear").replace(srr=srr, height=-1.5e-6, **{
+        "grid.nx": 128, "grid.ny": 32, "thermal.on": False, "fatigue.on": False, "time.x_end": 0.6})
+    reader = Snapshots(tehl.march(scene))
+    films = [dict(films_in_dent(scene, reader, passage(one, reader, 4)))
+             for one in (scene, scene.replace(**{"zoom.width_x": 2.0}))]
+    assert films[0].keys() == films[1].keys() and len(films[0]) > 50
+    assert max(abs(films[0][entry] / films[1][entry] - 1) for entry in films[0]) < 0.002
+
+
+def films_in_dent(scene, reader, found):
+    """(entry, smallest film in m) under the feature at the moments of a passage."""
+    w, f = found.window, scene.features[0]
+    a = Scales.of(scene).a
+    for entry, origin, film in zip(found.entries, found.origins, found.fields["film"]):
+        x = w.columns(origin) * a
+        yield entry, film[np.abs(x - reader.items[entry].feature_x) < f.reach].min()
