@@ -1,6 +1,7 @@
 """Fatigue of the material around a feature: stress histories, critical planes, the index."""
 
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 
@@ -21,21 +22,23 @@ from tehl_taichi.fatigue.judged_surfaces import resting
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
 from tehl_taichi.fatigue.search_result import SearchResult
+from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.worst_point import worst_of
 from tehl_taichi.scene import SceneError, fatigue_limits, rough_surfaces
 
+NO_BOXES = MappingProxyType({})  # all points are searched
 PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
 
 
 class Snapshots:
     """Reader of a list of snapshots on one grid, as :func:`run` takes it.
 
-    residual_fields: {surface name: ResidualField}; sparing: see :class:`tehl_taichi.fatigue.stress.histories.StressHistories`.
+    residual_fields: {surface name: ResidualField}.
     """
 
-    def __init__(self, snapshots, residual_fields=None, sparing=False):
-        self.items, self.sparing = list(snapshots), sparing
+    def __init__(self, snapshots, residual_fields=None):
+        self.items = list(snapshots)
         self.x, self.y = self.items[0].x, self.items[0].y
         self.time = np.array([s.time for s in self.items])
         self.residual_fields = residual_fields or {}
@@ -56,7 +59,7 @@ class Snapshots:
         return np.array([s.scalars[name] for s in self.items])
 
 
-def run(scene, reader, progress=None, until=None, alone=True):
+def run(scene, reader, progress=None, until=None, alone=True, sought=Sought.ALL, boxes=NO_BOXES):
     """Search the fatigue of a passage; return the SearchResult of the worse body, with the other body's result in it.
 
     The bodies are those of `scene.judged`. The points lie within 0.6 a of the first feature (0.3 a beyond the rim of larger
@@ -67,7 +70,8 @@ def run(scene, reader, progress=None, until=None, alone=True):
 
     reader: a list of snapshots, or a reader as :class:`tehl_taichi.fatigue.stress.histories.StressHistories` describes it.
     progress: called with (done, total) parts. until: position (a) of the feature; the worst points of the moments up to there
-    are also reported ("resolved" of the summary). alone: whether the smooth contact is searched, too.
+    are also reported ("resolved" of the summary). alone: whether the smooth contact is searched, too. sought, boxes: which
+    points are searched (:mod:`tehl_taichi.fatigue.sought`); boxes: {surface name: Box}, all points of a surface without one.
     Memory: one block of histories (at most 1 GB); thermal stress needs 8 bytes more per entry and wave number (one wave number
     per 4 nodes of the grid). Raises SceneError if no feature passes.
     """
@@ -79,17 +83,20 @@ def run(scene, reader, progress=None, until=None, alone=True):
         raise resting(scene.fatigue.surfaces)
     wide = material_length.counts(scene, reader.x)
     total = count * (1 + wide)
-    results = [_of_surface(scene, surface, reader, centres, _share(progress, n, total), until, alone)
-               for n, surface in enumerate(scene.judged)]
+    passages = [StressHistories(scene, reader, centres, surface=surface, box=boxes.get(surface.name), sought=sought)
+                for surface in scene.judged]
+    results = [_of_surface(scene, passage, centres, _share(progress, n, total), until, alone)
+               for n, passage in enumerate(passages)]
     if wide:
-        results = [_with_length(one, scene, surface, reader, centres, _share(progress, count + n, total))
-                   for n, (one, surface) in enumerate(zip(results, scene.judged))]
+        results = [_with_length(one, passage, centres, boxes, _share(progress, count + n, total))
+                   for n, (one, passage) in enumerate(zip(results, passages))]
     return worse_of(results)
 
 
-def _with_length(result, scene, surface, reader, centres, progress):
+def _with_length(result, passage, centres, boxes, progress):
     """The result with the index of stresses averaged over fatigue.length."""
-    found = material_length.part(scene, surface, reader, centres, progress, result)
+    found = material_length.part(passage.scene, passage.surface, passage.reader, centres, progress, result,
+                                 boxes.get(passage.surface.name), passage.sought)
     return replace(result, summary={**result.summary, "averaged": found})
 
 
@@ -109,9 +116,8 @@ def _share(progress, n, count):
     return progress and (lambda done, total: progress(n * total + done, count * total))
 
 
-def _of_surface(scene, surface, reader, centres, progress, until, alone):
+def _of_surface(scene, passage, centres, progress, until, alone):
     """SearchResult of one body. Raises SceneError if fewer than two stored moments count."""
-    passage = StressHistories(scene, reader, centres, surface=surface)
     if passage.centres.size < 2:
         f = scene.fatigue
         raise SceneError(f"no stored moment has the feature between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
@@ -122,7 +128,7 @@ def _of_surface(scene, surface, reader, centres, progress, until, alone):
     deep = depth_search.search(scene, passage, layers, early, progress) if in_depth else depth_search.DepthResult()
     progress.end()
     layers, deep = every_moment.followed(scene, passage, layers, deep)
-    smooth = contact_alone.search(scene, reader, surface) if alone else None
+    smooth = contact_alone.search(scene, passage.reader, passage.surface) if alone else None
     result = _result(scene, passage, layers, deep, smooth)
     if stressed := _stressed(scene, passage, layers[0], smooth):
         result = replace(result, summary={**result.summary, "stressed": stressed})
@@ -167,7 +173,7 @@ def _result(scene, passage, layers, below, alone):
     counts = index_statistics.weights(passage)
     arrays = {**result_arrays.of_surface(surface, passage, limit, counts), "worst": surface.worst.history(centres)}
     summary |= {"cycles_above_1": stress_cycles.above(surface.worst.stress, surface.worst.normal, local)}
-    if not passage.worst:
+    if passage.sought is not Sought.WORST:
         summary |= {"statistics": _statistics(surface, counts, limit)}
     peaks = [found.mises for found in layers] + below.mises
     summary["von_mises"] = von_mises.summary(peaks, surface.mises.value, passage.surface, strength)
@@ -184,7 +190,7 @@ def _result(scene, passage, layers, below, alone):
         arrays |= {"findley_stress_contact_alone": alone.f} if alone else {}
         arrays |= result_arrays.of_plane(below.plane) if below.plane else {}
         arrays |= result_arrays.of_limits(strength, depths, below.plane, layers)
-        if not passage.worst:
+        if passage.sought is not Sought.WORST:
             summary["below"]["statistics"] = _statistics_below(below, counts, passage)
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),

@@ -8,6 +8,7 @@ be worse.
 
 import numpy as np
 
+from tehl_taichi.fatigue.sought import Box
 from tehl_taichi.fatigue.stress.averaging import averaged
 
 FIRST = 0.8  # share of the largest average: points with more are searched first
@@ -28,17 +29,17 @@ class Candidates:
         self.most = (LOW if low else 1.0) * averaged(along, reader.across, 1, reader.mirrored)
 
     def first(self):
-        """((x' from, to), (y from, to)) m of the points to search first."""
+        """Box of the points to search first."""
         return self._box(FIRST * self.most.max())
 
     def wider(self, box, worst):
-        """((x' from, to), (y from, to)) m with `box` and all points that may be worse than the index `worst` found in it; None
-        if `box` has all of them."""
+        """The Box with `box` and all points that may be worse than the index `worst` found in it; None if `box` has all of
+        them."""
         other = self._box(min(worst, self.most.max()))
-        found = tuple((min(low, least), max(high, most)) for (low, high), (least, most) in zip(box, other))
+        found = Box(*((min(low, least), max(high, most)) for (low, high), (least, most) in zip(box[:2], other[:2])))
         return None if found == box else found
 
     def _box(self, least):
         columns, rows = np.nonzero(self.most >= least)
-        return tuple((float(places.min() - self.cell / 2), float(places.max() + self.cell / 2))
-                     for places in (self.x[columns], self.y[rows]))
+        return Box(*((float(places.min() - self.cell / 2), float(places.max() + self.cell / 2))
+                     for places in (self.x[columns], self.y[rows])))

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.fatigue import findley, index_statistics, von_mises
+from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import WorstPoint
 from tehl_taichi.values.interpolation import lagrange
@@ -79,7 +80,7 @@ def _profiles(passage, depths, histories, moment_sets, row):
 def _needed(passage, row, depths):
     """Mask (depths * x',) of the points under a row that are in statistics, or False for none (see
     :func:`tehl_taichi.fatigue.index_statistics.below`)."""
-    if not passage.sparing:
+    if passage.sought is not Sought.COUNTED:
         return False
     return np.tile(index_statistics.under_row(index_statistics.weights(passage), row - passage.rows.start) > 0, depths.size)
 
@@ -87,7 +88,7 @@ def _needed(passage, row, depths):
 def _searched(passage, depths, histories, known, needed):
     """The result of :func:`_of_planes` for the rungs; known, needed: as there."""
     # the worst point has the largest f only if all depths have one limit
-    worst = passage.brief and len(set(passage.strength.shares(depths))) == 1
+    worst = passage.sought.brief and len(set(passage.strength.shares(depths))) == 1
     return _of_planes(passage, depths, histories, known=known, worst=worst, needed=needed)
 
 

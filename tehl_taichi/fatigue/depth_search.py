@@ -44,12 +44,13 @@ class DepthResult:
 
 
 def search(scene, passage, layers, early, progress):
-    """The DepthResult below the rows of the feature and of the worst points of `layers` (Layer).
+    """The DepthResult below the rows of the feature and of the worst points of `layers` (Layer), or below chosen rows.
 
     On a whole domain also at all points of the worst depth, and below the rows of its worst points; early moments have their
     own worst depth.
     """
-    rows = _rows(passage, (scene.features[0].y, *(place for found in layers for place in _worst(found))))
+    places = passage.chosen_y or (scene.features[0].y, *(place for found in layers for place in _worst(found)))
+    rows = _rows(passage, places)
     if passes(passage):
         rows = list(dict.fromkeys(rows + candidate_rows.rows(passage, depth_profile.ladder(passage), _moment_sets(early),
                                                              progress)))

@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from tehl_taichi.fatigue import findley
+from tehl_taichi.fatigue.sought import Box
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import worst_of
@@ -103,13 +104,13 @@ def _of_loads(scene, passage, start):
 
 
 def _box(passage, points):
-    """((x' from, to), (y from, to), (depth from, to)) m around the points."""
+    """Box around the points."""
     def around(places, cell):
         return min(places) - cell / 2, max(places) + cell / 2
 
     rows = passage.reader.y
     cell = float(rows[1] - rows[0]) if len(rows) > 1 else 1.0
-    return around([one.x for one in points], passage.dx), around([one.y for one in points], cell), (0.0, np.inf)
+    return Box(around([one.x for one in points], passage.dx), around([one.y for one in points], cell))
 
 
 def _with_moments(point, steps, moments, history):

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tehl_taichi.fatigue import findley, index_statistics, stress_cycles, von_mises
+from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface
 from tehl_taichi.fatigue.worst_point import WorstPoint, close_ones, over_some, worse
 
@@ -25,9 +26,9 @@ class Layer:
 
     Maps (x', rows): f, value of the criterion (Pa); theta, phi, angles of the critical plane (degrees); sigma1, largest
     principal stress (Pa); cycles above the limit per passage (nan at points outside the sample). worst: the worst point. mises:
-    the largest von Mises stress, or None. early: results of the early moments, or None. If the passage is brief, f is that of
-    `worst=True` of :func:`tehl_taichi.fatigue.findley.search`, and sigma1 and cycles are nan. close: the worst points at
-    the surface, if the reader of the passage has moments between those of the run.
+    the largest von Mises stress, or None. early: results of the early moments, or None. If not all points are sought, f is that
+    of `worst=True` of :func:`tehl_taichi.fatigue.findley.search`, and sigma1 and cycles are nan. close: the worst points at the
+    surface, if the reader of the passage has moments between those of the run.
     """
 
     depth: float
@@ -50,13 +51,14 @@ def layer(scene, passage, depth, progress, early):
     parts, worst, peaks, close, sooner = [], None, [], [], _Early(scene, passage, depth, early)
     follows = not depth and getattr(passage.reader, "every", None) is not None
     counts, local = index_statistics.weights(passage), passage.strength.at(depth)
-    counted, needed = index_statistics.sample(counts) & (not passage.brief), (counts > 0) & (not passage.worst)
+    brief = passage.sought.brief
+    counted, needed = index_statistics.sample(counts) & (not brief), (counts > 0) & (passage.sought is Sought.COUNTED)
     for rows, history in _blocks(scene, passage, depth, progress):
-        f, normals = findley.search(history, local.kappa, criterion=local.criterion, notify=progress, worst=passage.brief,
+        f, normals = findley.search(history, local.kappa, criterion=local.criterion, notify=progress, worst=brief,
                                     needed=needed[:, rows].ravel())
         shape = passage.x.size, rows.stop - rows.start
         cycles = _cycles(history, normals, counted[:, rows].ravel(), local)
-        tension = np.full(len(f), np.nan) if passage.brief else von_mises.largest(history, findley.largest_principal)
+        tension = np.full(len(f), np.nan) if brief else von_mises.largest(history, findley.largest_principal)
         parts.append([v.reshape(shape) for v in (f, *findley.angles(normals), tension, cycles)])
         worst = worse(worst, passage.places(depth, rows), history, f, normals, local)
         close = close_ones(close, passage.places(depth, rows), history, f, normals, local) if follows else []

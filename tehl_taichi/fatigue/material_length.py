@@ -10,6 +10,7 @@ from tehl_taichi.fatigue import depth_search, every_moment, local_strength
 from tehl_taichi.fatigue.averaged_candidates import Candidates
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
+from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.averaging import averaged_reader
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.worst_point import worst_of
@@ -22,15 +23,15 @@ def counts(scene, x):
     return not material_length.why_not(scene, (x[-1] - x[0]) / (len(x) - 1))
 
 
-def part(scene, surface, reader, centres, progress, found=None):
+def part(scene, surface, reader, centres, progress, found=None, box=None, sought=Sought.ALL):
     """Part "averaged" of the summary of one body; centres: of the first feature, m; found: SearchResult of its stresses at
-    points, which bound the averaged ones (None: search all points); other arguments as in
+    points, which bound the averaged ones (None: search all points); box, sought: of this search; other arguments as in
     :func:`tehl_taichi.fatigue.assessment.run`.
     """
     averages, centres = averaged_reader(reader, scene.fatigue.length), np.asarray(centres)
-    passage = _passage(scene, surface, averages, centres)
+    passage = _passage(scene, surface, averages, centres, box)
     progress = PassProgress.of(progress, scene, passage)
-    top, some = _surface(scene, passage, averages, centres, progress, found)
+    top, some = _surface(scene, passage, averages, centres, progress, found, sought.brief)
     layers = [top, *(layer(scene, passage, depth, progress, None) for depth in scene.fatigue.listed)]
     deep = depth_search.search(scene, passage, layers, None, progress) if scene.fatigue.depths else depth_search.DepthResult()
     progress.end()
@@ -40,12 +41,12 @@ def part(scene, surface, reader, centres, progress, found=None):
     return {"length_m": scene.fatigue.length, **layers[0].worst.summary(), **({"below": deepest} if below else {})}
 
 
-def _surface(scene, passage, averages, centres, progress, found):
+def _surface(scene, passage, averages, centres, progress, found, low=False):
     """(Layer of the surface, StressHistories of its points): of the points that may be the worst; of all points without a
-    search `found` or if the criterion is not convex."""
+    search `found` or if the criterion is not convex. low: whether `found` may have values of first planes."""
     if found is None or not CRITERIA[scene.fatigue.criterion].convex:
         return layer(scene, passage, 0.0, progress, None), passage
-    candidates = Candidates(found, averages, any(getattr(averages.reader, kind, False) for kind in ("worst", "sparing")))
+    candidates = Candidates(found, averages, low)
     box = candidates.first()
     while True:
         some = _passage(scene, passage.surface, averages, centres, box)
@@ -56,10 +57,9 @@ def _surface(scene, passage, averages, centres, progress, found):
 
 
 def _passage(scene, surface, averages, centres, box=None):
-    """StressHistories of averaged stresses, whose worst point is searched; box: ((x' from, to), (y from, to)) m of its
-    points."""
-    out = StressHistories(scene, averages, centres, surface=surface, box=box and (*box, (0.0, np.inf)))
-    out.worst, out.steel = True, False
+    """StressHistories of averaged stresses, whose worst point is searched; box: Box of its points, or None."""
+    out = StressHistories(scene, averages, centres, surface=surface, box=box, sought=Sought.WORST)
+    out.steel = False
     return out
 
 

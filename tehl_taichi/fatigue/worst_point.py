@@ -97,12 +97,12 @@ def over_some(history, moments, passage, depth, places, known, worst=None):
     """(stress of every point, Pa, worst point or `worst`) for some of the moments; known: (f, normals) for all moments. A few
     points at a time, because the selection copies their histories.
     """
-    f, local = np.empty(len(history)), passage.strength.at(depth)
+    f, local, brief = np.empty(len(history)), passage.strength.at(depth), passage.sought.brief
     for first in range(0, len(history), AT_ONCE):
         points = slice(first, first + AT_ONCE)
         part = history[points, moments]
         whole = [values[points] for values in known] if known else None
-        f[points], normals = findley.search(part, local.kappa, criterion=local.criterion, known=whole, worst=passage.brief)
+        f[points], normals = findley.search(part, local.kappa, criterion=local.criterion, known=whole, worst=brief)
         worst = worse(worst, lambda n, first=first: places(first + n), part, f[points], normals, local)
     return f, worst
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from tehl_taichi.fatigue.depth_profile import RATIO
+from tehl_taichi.fatigue.sought import Box
 from tehl_taichi.scene.scales import Scales
 
 # share of the largest stress at the surface and below it from which a point is searched again. Below, the smooth contact alone
@@ -16,14 +17,26 @@ KEPT = "statistics", "stressed"  # parts of the summary of the run that are kept
 
 
 def ends(scene, found):
-    """{surface: ((x' from, to), (y from, to), (depth from, to)) m} of the points to search again; {}: all (rough surfaces).
+    """{surface: Box} of the points to search again; {}: all (rough surfaces).
 
     found: SearchResult of the run without a window.
     """
     if found.numbers.get("rough"):
         return {}
     deepest = max(_deepest(one) for one in found.by_surface.values())
-    return {name: (*_of(one, Scales.of(scene).a), (0.0, deepest)) for name, one in found.by_surface.items()}
+    return {name: _of(one, Scales.of(scene).a, deepest) for name, one in found.by_surface.items()}
+
+
+def under_worst(boxes, finest):
+    """The `boxes` {surface: Box} for a search with a coarser window: below the surface, only the rows with a worst point of the
+    finer window (`finest`, its SearchResult) are searched."""
+    return {name: box._replace(chosen_y=_rows_of_worst(finest.by_surface[name].numbers)) for name, box in boxes.items()}
+
+
+def _rows_of_worst(numbers):
+    """Positions y (m) of the worst points below the surface: of the whole passage, its resolved part, and averaged stresses."""
+    parts = numbers, numbers.get("resolved", {}), numbers.get("averaged", {})
+    return tuple(dict.fromkeys(part["below"]["y_m"] for part in parts if "below" in part)) or None
 
 
 def _deepest(found):
@@ -42,15 +55,16 @@ def _worst_depths(numbers):
     return [part.get("depth_m", 0.0) for part in (numbers.get("below", {}), wide, steel)]
 
 
-def _of(found, a):
-    """((x' from, to), (y from, to)) m of one body; a: half-width, m."""
+def _of(found, a, deepest):
+    """Box of one body down to the depth `deepest` (m); a: half-width, m."""
     x, y = np.asarray(found.feature_frame_x), np.asarray(found.feature_frame_y)
     columns, rows = np.nonzero(found.findley_stress >= SURFACE * found.findley_stress.max())
     places = [x[columns]]
     if found.findley_stress_under_row is not None:
         under = found.findley_stress_under_row[1:]
         places.append(x[np.nonzero((under >= BELOW * under.max()).any(axis=0))])
-    return _around(np.concatenate(places), x, BESIDE * a), _around(y[rows], y, BESIDE * a)
+    side = BESIDE * a
+    return Box(_around(np.concatenate(places), x, side), _around(y[rows], y, side), (0.0, deepest))
 
 
 def _around(some, places, side):
@@ -74,7 +88,7 @@ def at_an_end(found, ends_of, cell):
 
 def _near(box, part, cell):
     """Whether a point lies within a cell of a side of the box (its lower end is not checked)."""
-    (left, right), (low, high), _ = box
+    (left, right), (low, high), *_ = box
     x, y = part["x_m"], part["y_m"]
     return min(x - left, right - x, y - low, high - y) < cell
 

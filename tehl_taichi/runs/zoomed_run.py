@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.march.accuracy.domain_error import widened
 from tehl_taichi.march.accuracy.error_bars import bars
@@ -63,7 +64,7 @@ def levels(saved, progress):
                                     zoom_need.begin(saved))
     saved.kept_states = None
     run = ReadOnce(saved)
-    return [ZoomLevel(one, ZoomedReader(run, one, scene.symmetric, worst=one is not found[-1])) for one in found]
+    return [ZoomLevel(one, ZoomedReader(run, one, scene.symmetric)) for one in found]
 
 
 def search(saved, found, alone, progress):
@@ -71,16 +72,21 @@ def search(saved, found, alone, progress):
 
     alone: SearchResult of the run without windows, which determines the searched points.
     """
-    results, ends = [], zoomed_points.ends(saved.scene, alone)
-    for level in reversed(found):  # the finest first: the others use its thermal stresses of the run
-        level.reader.kept_heat = found[-1].reader.kept_heat
-        results.append(searched(saved, saved.scene, level.reader, ends, progress))
-        level.searches = zoomed_points.completed(results[-1].summaries, alone.summaries)
-    return found[-1].searches, zoomed_points.deeper(results[0], alone).to_arrays()
+    *others, finest = found
+    boxes = zoomed_points.ends(saved.scene, alone)
+    result = searched(saved, saved.scene, finest.reader, boxes, progress)
+    finest.searches = zoomed_points.completed(result.summaries, alone.summaries)
+    boxes = zoomed_points.under_worst(boxes, result)
+    for level in others:  # after the finest one, whose thermal stresses of the run they use
+        level.reader.kept_heat = finest.reader.kept_heat
+        their = searched(saved, saved.scene, level.reader, boxes, progress, sought=Sought.WORST)
+        level.searches = zoomed_points.completed(their.summaries, alone.summaries)
+    return finest.searches, zoomed_points.deeper(result, alone).to_arrays()
 
 
-def searched(saved, scene, reader, ends, progress, until=None):
-    """The SearchResult of a run with a window, at the points between `ends`; at all points if the worst one lies at an end.
+def searched(saved, scene, reader, boxes, progress, until=None, sought=Sought.ALL):
+    """The SearchResult of a run with a window, at the points of `boxes` {surface: Box}; at all points if the worst one lies at
+    an end.
 
     scene: its fatigue constants are used; reader: ZoomedReader; until: position (a) of the feature, by default up to where the
     window resolves the pressure.
@@ -89,12 +95,10 @@ def searched(saved, scene, reader, ends, progress, until=None):
 
     if until is None:
         until = coarse_runs.resolved(scene, reader, reader.scalar)
-    reader.searched = ends
-    found = assessed(saved, scene, progress, until, reader=reader)
-    if not zoomed_points.at_an_end(found, ends, float(reader.x[1] - reader.x[0])):
+    found = assessed(saved, scene, progress, until, reader=reader, sought=sought, boxes=boxes)
+    if not zoomed_points.at_an_end(found, boxes, float(reader.x[1] - reader.x[0])):
         return found
-    reader.searched = {}
-    return assessed(saved, scene, progress, until, reader=reader)
+    return assessed(saved, scene, progress, until, reader=reader, sought=sought)
 
 
 def corrected(saved, found, searches, passage, domain):

@@ -8,6 +8,7 @@ from rolling import Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment, averaged_candidates, findley, material_length
+from tehl_taichi.fatigue.sought import Box, Sought
 from tehl_taichi.laws.criteria import CRITERIA
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
@@ -65,18 +66,16 @@ def test_low_values_of_first_planes_are_raised():
     found = SimpleNamespace(feature_frame_x=np.arange(9.0), feature_frame_y=np.zeros(1), findley_stress=f,
                             numbers={"sigma_eF_Pa": 400e6})
     reader = SimpleNamespace(x=np.arange(9.0), along=np.ones(1), across=np.ones(1), mirrored=False)
-    box = (2.5, 3.5), (-0.5, 0.5)
+    box = Box((2.5, 3.5), (-0.5, 0.5))
     boxes = [averaged_candidates.Candidates(found, reader, low).wider(box, 1.0) for low in (False, True)]
-    assert boxes == [None, ((2.5, 6.5), (-0.5, 0.5))]
+    assert boxes == [None, Box((2.5, 6.5), (-0.5, 0.5))]
 
 
-@pytest.mark.parametrize("kind", [None, "worst", "sparing"])
-def test_searches_with_first_planes_have_raised_bounds(monkeypatch, kind):
+@pytest.mark.parametrize("sought", Sought)
+def test_searches_with_first_planes_have_raised_bounds(monkeypatch, sought):
     """Of windows for error bars, and of coarse-grid runs."""
     scene = tehl.scene("gear").replace(**ISOTHERMAL, **{"fatigue.length": 40e-6})
     lows, real, reader = [], averaged_candidates.Candidates, Rolling(scene, 32, 5)
-    if kind:
-        setattr(reader, kind, True)
     monkeypatch.setattr(material_length, "Candidates", lambda *given: lows.append(given[-1]) or real(*given))
-    assessment.run(scene, reader, alone=False)
-    assert lows == [bool(kind)] * 2
+    assessment.run(scene, reader, alone=False, sought=sought)
+    assert lows == [sought is not Sought.ALL] * 2

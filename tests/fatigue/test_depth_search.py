@@ -9,6 +9,7 @@ from rolling import Rolling
 import tehl_taichi as tehl
 from tehl_taichi.errors import RuntimeUnavailable
 from tehl_taichi.fatigue import assessment, candidate_rows, depth_profile, depth_search
+from tehl_taichi.fatigue.sought import Box
 from tehl_taichi.fatigue.stress import half_space
 from tehl_taichi.fatigue.stress import workers as stress_workers
 from tehl_taichi.fatigue.stress.histories import StressHistories
@@ -100,8 +101,10 @@ def test_the_rows_of_the_worst_of_listed_depths_are_searched(taichi_cpu, monkeyp
     monkeypatch.setattr(depth_search, "passes", lambda passage: 0)
     reader = Rolling(scene, rows=9)
     layers = [SimpleNamespace(worst=SimpleNamespace(y=y), early=None) for y in (reader.y[2], reader.y[5])]
-    depth_search.search(scene, StressHistories(scene, reader, reader.centres), layers, None, None)
-    assert asked == [[0, 2, 5]]
+    chosen = Box((-np.inf, np.inf), (-np.inf, np.inf), chosen_y=(reader.y[3],))
+    for box in (None, chosen):
+        depth_search.search(scene, StressHistories(scene, reader, reader.centres, box=box), layers, None, None)
+    assert asked == [[0, 2, 5], [3]]
 
 
 def test_listed_depths_are_told_of_as_one_count_with_the_search(taichi_cpu):

@@ -9,6 +9,7 @@ from rolling import Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment, index_statistics
+from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.march.accuracy.error_bars import GridReading, bar
@@ -71,9 +72,8 @@ def test_a_search_has_them_at_the_surface_and_below(taichi_cpu):
 def test_a_sparing_search_has_all_numbers_with_bars(taichi_cpu):
     """As coarse-grid runs make it: the worst points, also of the early moments, and the points that the feature passes."""
     scene = tehl.scene("gear").replace(**{"thermal.on": False, "feature.width": 0.4 * 0.36216e-3})
-    whole, brief = Rolling(scene, 16, 17), Rolling(scene, 16, 17)
-    brief.sparing = True
-    every, few = (assessment.run(scene, reader, until=-0.2, alone=False) for reader in (whole, brief))
+    reader = Rolling(scene, 16, 17)
+    every, few = (assessment.run(scene, reader, until=-0.2, alone=False, sought=one) for one in (Sought.ALL, Sought.COUNTED))
 
     def with_bars(found):
         """The numbers of a search that have error bars."""

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi.fatigue import sought
 from tehl_taichi.runs import zoomed_points
 from tehl_taichi.scene.scales import Scales
 
@@ -23,7 +24,7 @@ def found(at, deep, rough=False, surface="a"):
 
 
 def test_the_worst_points_of_the_run_are_inside():
-    (left, right), (low, high), _ = zoomed_points.ends(GEAR, found((20, 4), 28))["a"]
+    (left, right), (low, high), *_ = zoomed_points.ends(GEAR, found((20, 4), 28))["a"]
     side = zoomed_points.BESIDE * Scales.of(GEAR).a
     assert np.allclose((left, right, low, high), (X[20] - side, X[28] + side, Y[4] - side, Y[4] + side))
     assert zoomed_points.ends(GEAR, found((1, 1), 39))["a"][:2] == ((-np.inf, np.inf), (-np.inf, Y[1] + side))
@@ -63,6 +64,15 @@ def test_a_worst_depth_at_the_end_of_what_was_searched_is_seen(place, depth, cut
     part |= {"depth_m": depth, "x_m": 0.0, "y_m": 0.0, "Fi_max": 1.0}
     box = {"a": ((-1e-4, 1e-4), (-np.inf, 1e-4), (0.0, 4.5e-5))}
     assert zoomed_points.at_an_end(tehl.SearchResult(summary), box, 2e-6) is cut
+
+
+def test_a_coarser_window_is_searched_below_the_worst_points_of_the_finer_one():
+    whole, box = found((20, 4), 28), sought.Box((-1e-5, 1e-5), (0.0, 3e-5), (0.0, 1e-5))
+    whole.summary["below"]["y_m"] = 1e-5
+    whole.summary.update(resolved={"below": {"y_m": 2e-5}}, averaged={"below": {"y_m": 1e-5}})
+    assert zoomed_points.under_worst({"a": box}, whole) == {"a": (*box[:3], (1e-5, 2e-5))}
+    del whole.summary["below"], whole.summary["resolved"], whole.summary["averaged"]
+    assert zoomed_points.under_worst({"a": box}, whole) == {"a": box} and zoomed_points.under_worst({}, whole) == {}
 
 
 def test_stresses_far_below_are_those_of_the_run():

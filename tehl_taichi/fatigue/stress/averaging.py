@@ -43,7 +43,7 @@ class AveragedReader:
         self.reader, self.x, self.y, self.time, self.feature_x = reader, reader.x, reader.y, reader.time, reader.feature_x
         self.along, self.across = (weights(length, float(side[1] - side[0])) if len(side) > 1 else np.ones(1)
                                    for side in (reader.x, reader.y))
-        self.mirrored, self.searched = len(reader.y) > 1 and reader.y[0] == 0, getattr(reader, "searched", {})
+        self.mirrored = len(reader.y) > 1 and reader.y[0] == 0
         self.residual_fields = {name: field.averaged(self.along, self.across, self.mirrored)
                                 for name, field in getattr(reader, "residual_fields", {}).items()}
 

@@ -11,6 +11,7 @@ import functools
 import numpy as np
 
 from tehl_taichi.engine.fftw import SINGLE
+from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.averaging import has_window
 from tehl_taichi.fatigue.stress.half_space import COMPONENTS, HalfSpaceStress
 from tehl_taichi.fatigue.stress.thermal_depth import ThermalBelow
@@ -34,27 +35,25 @@ class StressHistories:
     points, m; `rows`: slice of the reader's rows; for every moment `positions` of the first feature and `centres` of the frame
     of the surface, m, and `entries`, the number of its entry.
 
-    reader: has x, y (m), time (s), len, feature_x(n) (m) and fields(n, names) (SI); entry 0 is the steady start. It may have
-    `searched`, {surface name: ((x' from, to), (y from, to), (depth from, to)) m} of the points to search, `worst`, whether
-    only the worst of these points is needed, and `sparing`, whether only numbers with an error bar are: the worst points, and
-    statistics of the index. positions: (entries,) m, of the first feature. around: half width (in a) of the
-    part around one small feature. surface: the :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` whose points these are,
-    by default that of the first feature. box: points to search, as `searched` of the reader has them for each surface, in place
-    of those.
+    reader: has x, y (m), time (s), len, feature_x(n) (m) and fields(n, names) (SI); entry 0 is the steady start. positions:
+    (entries,) m, of the first feature. around: half width (in a) of the part around one small feature. surface: the
+    :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` whose points these are, by default that of the first feature. box:
+    :class:`tehl_taichi.fatigue.sought.Box` of the points to search, or None for all. sought: which of them are searched in full
+    (:class:`tehl_taichi.fatigue.sought.Sought`).
     """
 
     block = 16  # entries whose stresses are computed together
     deepest = np.inf  # depth down to which points are searched, m
-    worst, steel = False, True  # whether only the worst point is searched, and whether von Mises stresses are
-    sparing = False  # whether only points are searched that are in statistics or may be the worst
+    sought = Sought.ALL
+    steel = True  # whether von Mises stresses are searched
+    chosen_y = None  # positions y (m) of the rows that are searched below the surface, if these are chosen
     left = None  # residual stress by plastic flow: a :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`
 
-    def __init__(self, scene, reader, positions, around=AROUND, surface=None, box=None):
-        self.scene, self.reader, self.around, self.last_below = scene, reader, around, None
+    def __init__(self, scene, reader, positions, around=AROUND, surface=None, box=None, sought=Sought.ALL):
+        self.scene, self.reader, self.around, self.last_below, self.sought = scene, reader, around, None, sought
         self.surface, self.a = surface or scene.reference, Scales.of(scene).a
         self.strength = Strength(scene.fatigue, self.surface)
         self.loads_of = self._names()
-        self.worst, self.sparing = getattr(reader, "worst", False), getattr(reader, "sparing", False)
         self.left = getattr(reader, "residual_fields", {}).get(self.surface.name)
         self.path, centres = (float(positions[0]), float(positions[-1])), self.surface.pace * positions
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
@@ -69,7 +68,8 @@ class StressHistories:
         # as long as all points need: the history of a point does not depend on the choice of searched points
         before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
         ends = self.x[0], self.x[-1]
-        self._keep(box or getattr(reader, "searched", {}).get(self.surface.name))
+        if box is not None:
+            self._keep(box)
         self.centres = np.concatenate([before, centres, after])
         pace = self.surface.pace
         self.positions = np.concatenate([positions[0] + (before - centres[0]) / pace, positions,
@@ -78,16 +78,9 @@ class StressHistories:
         self._widen(*ends)
         self._choose_moments()
 
-    @property
-    def brief(self):
-        """Whether some points are searched only as far as the worst ones need it."""
-        return self.worst or self.sparing
-
-    def _keep(self, ends):
-        """Keep the points with x', y and depth between `ends`, three (low, high) in m; None keeps all."""
-        if ends is None:
-            return
-        (left, right), (low, high), (_, self.deepest) = ends
+    def _keep(self, box):
+        """Keep the points in a Box."""
+        (left, right), (low, high), (_, self.deepest), self.chosen_y = box
         self.x = self.x[(self.x >= left) & (self.x <= right)]
         rows = np.flatnonzero((self.y >= low) & (self.y <= high)) + self.rows.start
         self.rows = slice(rows[0], rows[-1] + 1)

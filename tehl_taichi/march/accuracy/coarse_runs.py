@@ -227,12 +227,14 @@ def values(scene, notify=lambda: None, until=lambda: None):
     notify(): called after each step; until(): see :func:`answers`.
     """
     from tehl_taichi.fatigue import assessment
+    from tehl_taichi.fatigue.sought import Sought
     from tehl_taichi.march.passage import march
 
     reader, run_in = _passages(scene, notify) if scene.runs_in else (assessment.Snapshots(_steps(march(scene), notify)), None)
-    reader.sparing = True
     with_fatigue = scene.has_fatigue and len(reader) > 2
-    found = assessment.run(scene, reader, until=until(), alone=False).summaries if with_fatigue else None
+    found = None
+    if with_fatigue:
+        found = assessment.run(scene, reader, until=until(), alone=False, sought=Sought.COUNTED).summaries
     return passage_readings(scene, reader, lambda name: np.array([shot.scalars[name] for shot in reader.items]), found, run_in)
 
 

@@ -15,12 +15,12 @@ class ZoomedReader:
     """Reader for :class:`tehl_taichi.fatigue.stress.histories.StressHistories`: a run on the fine grid, with a window in it.
 
     reader: of the run. zoomed: :class:`tehl_taichi.march.zoom.zoomed_passage.ZoomedPassage` of the window. mirrored: whether
-    rows begin at a symmetry plane. worst: whether only the worst points are searched.
+    rows begin at a symmetry plane.
     """
 
-    def __init__(self, reader, zoomed, mirrored, worst=False):
-        self.base, self.zoomed, w, self.searched = reader, zoomed, zoomed.window, {}
-        self.averaged, self.kept_heat, self.tables, self.worst, self.peaks = 0.0, {}, KeptTables(), worst, {}
+    def __init__(self, reader, zoomed, mirrored):
+        self.base, self.zoomed, w = reader, zoomed, zoomed.window
+        self.averaged, self.kept_heat, self.tables, self.peaks = 0.0, {}, KeptTables(), {}
         self.residual_fields = getattr(reader, "residual_fields", {})
         self.window = Extent(w.factor, w.nx + 1, w.ny + 1, w.row)
         self.time, self.feature_x = reader.time, reader.feature_x

@@ -8,6 +8,7 @@ import pytest
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import depth_profile, depth_search, every_moment, findley, material_length
 from tehl_taichi.fatigue.layer import layer
+from tehl_taichi.fatigue.sought import Box
 from tehl_taichi.fatigue.stress import held_heat
 from tehl_taichi.fatigue.stress.averaging import AveragedReader, averaged_reader
 from tehl_taichi.fatigue.stress.histories import StressHistories
@@ -99,10 +100,10 @@ def zoomed(scene, factor=FACTOR, since=1, between=False):
     return ZoomedReader(run, found, scene.symmetric)
 
 
-def histories(scene, reader, surface):
+def histories(scene, reader, surface, box=None):
     """(passage, stress at all points of the surface, (depths, x', moments, 6) under the row of the feature)."""
     centres = np.array([reader.feature_x(n) for n in range(len(reader))])
-    passage = StressHistories(scene, reader, centres, surface=scene.surfaces["ab".index(surface)])
+    passage = StressHistories(scene, reader, centres, surface=scene.surfaces["ab".index(surface)], box=box)
     y = 0.0 if not scene.rows else scene.features[0].y
     row = int(np.argmin(np.abs(passage.reader.y - y)))
     top = at_the_surface(passage)(slice(0, passage.y.size))
@@ -174,9 +175,7 @@ def test_depths_are_those_of_the_run_and_down_to_half_a_cell_of_the_window(facto
 
 
 def test_only_the_points_that_are_wanted_are_searched():
-    reader = zoomed(GEAR)
-    reader.searched = {"a": ((-2e-5, 6e-5), (0.0, 3e-5), (0.0, 2e-5))}
-    passage, top, deep = histories(GEAR, reader, "a")
+    passage, top, deep = histories(GEAR, zoomed(GEAR), "a", Box((-2e-5, 6e-5), (0.0, 3e-5), (0.0, 2e-5)))
     assert -2e-5 <= passage.x.min() and passage.x.max() <= 6e-5 and passage.y.max() <= 3e-5
     assert depth_profile.ladder(passage)[-1] <= 2e-5 < depth_profile.RATIO * depth_profile.ladder(passage)[-1] * 1.01
     whole, all_top, _ = histories(GEAR, zoomed(GEAR), "a")
@@ -198,8 +197,7 @@ def test_critical_points_are_followed_between_the_steps_of_the_run(surface, shar
     (top,), below = every_moment.followed(scene, passage, layers, deep)
     for old, new in ((layers[0].worst, top.worst), (deep.profiles[0].worst, below.profiles[0].worst)):
         fine = np.array([whole.feature_x(n) for n in range(len(whole))])
-        whole.searched = {surface: every_moment._box(passage, [new])}
-        there = StressHistories(scene, whole, fine, surface=body)
+        there = StressHistories(scene, whole, fine, surface=body, box=every_moment._box(passage, [new]))
         row = int(np.argmin(np.abs(there.reader.y - new.y)))
         stress = histories_of(there, [new.depth], [(row, False)])[0][0, 0]
         same = np.abs(there.positions[:, None] - new.positions).argmin(axis=0)
@@ -228,7 +226,7 @@ def test_the_worst_averaged_stress_is_found_among_some_points(scene):
             (some, box), (all_, _) = (material_length._surface(scene, whole, averages, centres, lambda done, total: None, one)
                                       for one in (found, None))
             assert (some.worst.x, some.worst.y) == (all_.worst.x, all_.worst.y) and some.worst.f == pytest.approx(all_.worst.f)
-            assert box.x.size * box.y.size < 0.9 * whole.x.size * whole.y.size and averages.searched == {}
+            assert box.x.size * box.y.size < 0.9 * whole.x.size * whole.y.size
 
 
 @pytest.mark.parametrize("srr, x_end", [(-0.6, 0.2), (0.4, 0.0), (1.0, 0.2)])
