@@ -1,4 +1,4 @@
-"""What a fatigue search has to find, and at which points."""
+"""Points of a fatigue search: where they lie, and which of them are searched in full."""
 
 import enum
 from typing import NamedTuple
