@@ -18,6 +18,7 @@ from tehl_taichi.fatigue import (
     stressed_volume,
     von_mises,
 )
+from tehl_taichi.fatigue.averaged_surface import AveragedSurface
 from tehl_taichi.fatigue.judged_surfaces import resting
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.pass_progress import PassProgress
@@ -85,18 +86,18 @@ def run(scene, reader, progress=None, until=None, alone=True, sought=Sought.ALL,
     total = count * (1 + wide)
     passages = [StressHistories(scene, reader, centres, surface=surface, box=boxes.get(surface.name), sought=sought)
                 for surface in scene.judged]
-    results = [_of_surface(scene, passage, centres, _share(progress, n, total), until, alone)
-               for n, passage in enumerate(passages)]
+    averages = [AveragedSurface(passage, scene.fatigue.length) if wide else None for passage in passages]
+    results = [_of_surface(scene, passage, centres, _share(progress, n, total), until, alone, one)
+               for n, (passage, one) in enumerate(zip(passages, averages))]
     if wide:
-        results = [_with_length(one, passage, centres, boxes, _share(progress, count + n, total))
-                   for n, (one, passage) in enumerate(zip(results, passages))]
+        results = [_with_length(one, passage, top.layer, centres, boxes, _share(progress, count + n, total))
+                   for n, (one, passage, top) in enumerate(zip(results, passages, averages))]
     return worse_of(results)
 
 
-def _with_length(result, passage, centres, boxes, progress):
-    """The result with the index of stresses averaged over fatigue.length."""
-    found = material_length.part(passage.scene, passage.surface, passage.reader, centres, progress, result,
-                                 boxes.get(passage.surface.name), passage.sought)
+def _with_length(result, passage, top, centres, boxes, progress):
+    """The result with the index of stresses averaged over fatigue.length; top: their Layer at the surface."""
+    found = material_length.part(passage, top, centres, boxes.get(passage.surface.name), progress)
     return replace(result, summary={**result.summary, "averaged": found})
 
 
@@ -116,15 +117,16 @@ def _share(progress, n, count):
     return progress and (lambda done, total: progress(n * total + done, count * total))
 
 
-def _of_surface(scene, passage, centres, progress, until, alone):
-    """SearchResult of one body. Raises SceneError if fewer than two stored moments count."""
+def _of_surface(scene, passage, centres, progress, until, alone, averages):
+    """SearchResult of one body; averages: see :func:`layer`. Raises SceneError if fewer than two stored moments count."""
     if passage.centres.size < 2:
         f = scene.fatigue
         raise SceneError(f"no stored moment has the feature between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
                          f"it moves from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
     early, in_depth = _early(passage, until), bool(scene.fatigue.depths)
     progress = PassProgress.of(progress, scene, passage, early)
-    layers = [layer(scene, passage, depth, progress, early) for depth in (0.0, *scene.fatigue.listed)]
+    layers = [layer(scene, passage, 0.0, progress, early, averages)]
+    layers += [layer(scene, passage, depth, progress, early) for depth in scene.fatigue.listed]
     deep = depth_search.search(scene, passage, layers, early, progress) if in_depth else depth_search.DepthResult()
     progress.end()
     layers, deep = every_moment.followed(scene, passage, layers, deep)

@@ -43,10 +43,11 @@ class Layer:
     close: list = field(default_factory=list)
 
 
-def layer(scene, passage, depth, progress, early):
+def layer(scene, passage, depth, progress, early, averages=None):
     """Compute the stresses of all points at a depth (m) and search them; return the :class:`Layer`.
 
-    progress: called with (done, total); early: numbers of the moments that are also searched alone, or None.
+    progress: called with (done, total); early: numbers of the moments that are also searched alone, or None; averages: the
+    :class:`tehl_taichi.fatigue.averaged_surface.AveragedSurface` that takes the histories, or None.
     """
     parts, worst, peaks, close, sooner = [], None, [], [], _Early(scene, passage, depth, early)
     follows = not depth and getattr(passage.reader, "every", None) is not None
@@ -64,6 +65,8 @@ def layer(scene, passage, depth, progress, early):
         close = close_ones(close, passage.places(depth, rows), history, f, normals, local) if follows else []
         peaks += [von_mises.peak(history, passage.places(depth, rows))] if passage.steel else []
         sooner.add(rows, history, (f, normals))
+        if averages:
+            averages.add(rows, history, f)
     return Layer(depth, *(np.concatenate(part, axis=1) for part in zip(*parts)), worst, max(peaks, default=None), sooner.found,
                  close)
 

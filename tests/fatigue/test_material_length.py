@@ -28,8 +28,8 @@ def test_it_is_that_of_the_averaged_loads_of_both_bodies():
         wide = assessment.run(scene, AveragedReader(Rolling(scene, 12, 5), 100e-6), alone=False).summary
         own = summary["averaged"]
         assert own["length_m"] == 100e-6
-        for part, other in ((own, wide), (own["below"], wide["below"])):
-            assert part["findley_stress_max_Pa"] == pytest.approx(other["findley_stress_max_Pa"], rel=1e-12)
+        for part, other, error in ((own, wide, 1e-6), (own["below"], wide["below"], 1e-12)):
+            assert part["findley_stress_max_Pa"] == pytest.approx(other["findley_stress_max_Pa"], rel=error)
             assert part["Fi_max"] == pytest.approx(part["findley_stress_max_Pa"] / 400e6)
         assert own["Fi_max"] < summary["Fi_max"] and own["below"]["Fi_max"] < summary["below"]["Fi_max"]
 

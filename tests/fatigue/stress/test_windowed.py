@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import depth_profile, depth_search, every_moment, findley, material_length
+from tehl_taichi.fatigue import depth_profile, depth_search, every_moment, findley
+from tehl_taichi.fatigue.averaged_surface import AveragedSurface
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.sought import Box
 from tehl_taichi.fatigue.stress import held_heat
@@ -212,21 +213,20 @@ def test_critical_points_are_followed_between_the_steps_of_the_run(surface, shar
 
 
 @pytest.mark.parametrize("scene", [GEAR, OFF_AXIS], ids=["half domain", "off the axis"])
-def test_the_worst_averaged_stress_is_found_among_some_points(scene):
-    scene = scene.replace(**{"fatigue.length": 6e-5})
-    for reader in (zoomed(scene).base, zoomed(scene)):
-        centres = np.array([reader.feature_x(n) for n in range(len(reader))])
-        averages = averaged_reader(reader, scene.fatigue.length)
-        found = SimpleNamespace(numbers={"sigma_eF_Pa": 4e8})
-        for surface in scene.surfaces:
-            passage = StressHistories(scene, reader, centres, surface=surface)
-            found.feature_frame_x, found.feature_frame_y = passage.x, passage.y
-            found.findley_stress = layer(scene, passage, 0.0, lambda done, total: None, None).f
-            whole = material_length._passage(scene, surface, averages, centres)
-            (some, box), (all_, _) = (material_length._surface(scene, whole, averages, centres, lambda done, total: None, one)
-                                      for one in (found, None))
-            assert (some.worst.x, some.worst.y) == (all_.worst.x, all_.worst.y) and some.worst.f == pytest.approx(all_.worst.f)
-            assert box.x.size * box.y.size < 0.9 * whole.x.size * whole.y.size
+def test_averages_of_histories_are_those_of_averaged_loads(scene):
+    """Beside the window the run's cells are longer than those of the average, so its averaged loads are not as exact."""
+    length, reader = 6e-5, zoomed(scene)
+    centres = np.array([reader.feature_x(n) for n in range(len(reader))])
+    for body in scene.surfaces:
+        passage = StressHistories(scene, reader, centres, surface=body)
+        found = AveragedSurface(passage, length)
+        layer(scene, passage, 0.0, lambda done, total: None, None, found)
+        loads = StressHistories(scene, averaged_reader(reader, length), centres, surface=body)
+        whole = layer(scene, loads, 0.0, lambda done, total: None, None)
+        assert found.worst.f == pytest.approx(whole.worst.f, rel=0.01)
+        searched = np.isfinite(found.f)
+        assert searched.sum() < 0.5 * searched.size
+        assert np.abs(found.f - whole.f)[searched].max() < 0.03 * whole.worst.f
 
 
 @pytest.mark.parametrize("srr, x_end", [(-0.6, 0.2), (0.4, 0.0), (1.0, 0.2)])
