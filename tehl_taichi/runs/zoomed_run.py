@@ -77,8 +77,8 @@ def search(saved, found, alone, progress):
     result = searched(saved, saved.scene, finest.reader, boxes, progress)
     finest.searches = zoomed_points.completed(result.summaries, alone.summaries)
     boxes = zoomed_points.under_worst(boxes, result)
-    for level in others:  # after the finest one, whose thermal stresses of the run they use
-        level.reader.kept_heat = finest.reader.kept_heat
+    for level in others:  # after the finest one, whose thermal stresses of the run and tables they use
+        level.reader.kept_heat, level.reader.tables = finest.reader.kept_heat, finest.reader.tables
         their = searched(saved, saved.scene, level.reader, boxes, progress, sought=Sought.WORST)
         level.searches = zoomed_points.completed(their.summaries, alone.summaries)
     return finest.searches, zoomed_points.deeper(result, alone).to_arrays()

@@ -44,6 +44,8 @@ class AveragedReader:
         self.along, self.across = (weights(length, float(side[1] - side[0])) if len(side) > 1 else np.ones(1)
                                    for side in (reader.x, reader.y))
         self.mirrored = len(reader.y) > 1 and reader.y[0] == 0
+        if hasattr(reader, "parts"):
+            self.parts = reader.parts
         self.residual_fields = {name: field.averaged(self.along, self.across, self.mirrored)
                                 for name, field in getattr(reader, "residual_fields", {}).items()}
 

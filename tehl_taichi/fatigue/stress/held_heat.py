@@ -25,15 +25,19 @@ def histories(passage, rows):
 
 
 def _rises(passage, entry, first, count):
-    """Temperature rises (columns of the passage, count, 1) K of an entry on `count` fine rows from `first` on; beside the grid
-    those at its ends."""
-    reader, name = passage.reader, f"temperature_{passage.surface.name}"
+    """Temperature rises (columns of the passage, count, 1) K of an entry on `count` fine rows from `first` on.
+
+    Only columns that the histories use are computed; beside the grid they have the rises at its ends.
+    """
+    reader, name, band, front = passage.reader, f"temperature_{passage.surface.name}", passage.band(entry), passage.pad[0]
     run = np.asarray(reader.base.fields(entry, (name,))[name], float).T
-    refining = Refining((first, 0), (count, len(reader.x)), reader.window.factor, run.shape, is_mirrored(reader))
-    out = refining.smooth(run, POINTS).T
+    size = count, band.stop - band.start
+    refining = Refining((first, band.start - front), size, reader.window.factor, run.shape, is_mirrored(reader))
+    out = np.zeros((passage.grid_x.size, count))
+    out[band] = refining.smooth(run, POINTS).T
     if (found := reader.difference(entry, name)) is not None:
         column, change = found
         rows = first + np.arange(count) - reader.window.row
         inside = (rows >= 0) & (rows < reader.window.rows)
-        out[column : column + len(change), inside] += change[:, rows[inside]]
-    return (np.pad(out, (passage.pad, (0, 0)), "edge") - passage.scene.operation.temperature)[..., None]
+        out[front + column : front + column + len(change), inside] += change[:, rows[inside]]
+    return (out - passage.scene.operation.temperature)[..., None]

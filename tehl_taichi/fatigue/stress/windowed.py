@@ -9,6 +9,7 @@ Inside the window its loads replace the loads of the run. The half-space is line
 So no stress is computed on a fine grid of the whole contact. Temperatures are treated likewise (`windowed_heat`).
 """
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +17,7 @@ import numpy as np
 from tehl_taichi.engine.fftw import real_of
 from tehl_taichi.fatigue.stress.row_stress import RowStress
 from tehl_taichi.fatigue.stress.unit_loads import ACROSS
+from tehl_taichi.fatigue.stress.workers import pool
 from tehl_taichi.values.refining import matrix
 
 POINTS = 6  # nodes of the polynomials between the nodes of the run
@@ -89,8 +91,10 @@ class WindowedStresses:
 
 
 class BasePart:
-    """Stresses of the run's loads, interpolated to the fine columns and some fine rows; arguments:
-    :class:`WindowedStresses`."""
+    """Stresses of the run's loads, interpolated to the fine columns and some fine rows; arguments: :class:`WindowedStresses`.
+
+    A base reader with `parts(entry)`, [(another entry, weight)], has loads that are sums of those of a few steps of the run.
+    """
 
     def __init__(self, passage, depths, rows, kind):
         self.reader, self.passage, self.kind = passage.reader.base, passage, kind
@@ -98,14 +102,34 @@ class BasePart:
         self.operator = RowStress(b.x, self.reader.y, passage.surface.body.nu, passage.line, passage.mirrored, depths, b.rows,
                                   kind, passage.reader.tables)
 
+        self.known = self._known() if hasattr(self.reader, "parts") else None
+
     def __call__(self, block):
         """See :meth:`WindowedStresses.__call__`."""
+        return self.between.refined(self._stresses(block), [self.passage.band(entry) for entry in block])
+
+    def _stresses(self, block):
+        """Stresses (entries, columns, rows, depths, 6) Pa of some entries at the nodes of the run."""
+        if self.known is None:
+            return self._of_loads(block, block % self.passage.block)
+        return np.stack([sum(weight * self.known[step] for step, weight in self.reader.parts(int(entry))) for entry in block])
+
+    def _known(self):
+        """{entry: stresses} of the steps of the run on which the entries depend; stresses are linear in the loads."""
+        steps = sorted({step for entry in np.unique(self.passage.entries) for step, _ in self.reader.parts(int(entry))})
+        blocks = [steps[n : n + self.passage.block] for n in range(0, len(steps), self.passage.block)]
+        with pool(self.passage.nodes) as workers:
+            found = workers.map(lambda block: self._of_loads(block, np.arange(len(block))), blocks)
+            return dict(zip(steps, itertools.chain.from_iterable(found)))
+
+    def _of_loads(self, entries, slots):
+        """Stresses as of :meth:`_stresses` by the loads of at most a block of entries; slots: their places in the block."""
         b, size = self.between, self.passage.block
         loads = np.zeros((3, size, b.x.size, len(self.reader.y)), real_of(self.kind))
-        for entry in block:
+        for slot, entry in zip(slots, entries):
             fields = self.reader.fields(int(entry), self.passage.loads_of)
-            loads[:, entry % size, b.front : b.front + len(self.reader.x)] = self.passage.loads_from(fields)
-        return b.refined(self.operator(*loads)[block % size], [self.passage.band(entry) for entry in block])
+            loads[:, slot, b.front : b.front + len(self.reader.x)] = self.passage.loads_from(fields)
+        return self.operator(*loads)[slots]
 
 
 class WindowPart:

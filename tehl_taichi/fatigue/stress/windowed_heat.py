@@ -44,7 +44,16 @@ class WindowedHeat:
 
     @functools.cached_property
     def base(self):
-        """Thermal stress of the run without the window."""
+        """Thermal stress of the run without the window; at the surface it is kept for windows of other factors."""
+        if self.kind is not ThermalStress:
+            return self._of_run()
+        key = self.passage.surface.name, self.reader.averaged, self.nodes.front, self.nodes.x.size
+        kept = self.reader.kept_heat
+        if key not in kept:
+            kept[key] = self._of_run()
+        return kept[key]
+
+    def _of_run(self):
         run, nodes, passage = self.reader.base, self.nodes, self.passage
         grid = run.x, run.y, nodes.front, nodes.x.size
         return passage.heat_of(self.kind, passage.rises(run), grid, passage.mirrored, passage.a, passage.surface.speed)

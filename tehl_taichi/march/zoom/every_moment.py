@@ -34,6 +34,10 @@ class BetweenSteps:
             return parts[0][1]
         return {name: sum(weight * np.asarray(found[name], float) for weight, found in parts) for name in names}
 
+    def parts(self, n):
+        """[(entry of a step, weight)]: the loads of entry n are this sum of the loads of steps."""
+        return [(int(np.searchsorted(self.moments, step)), weight) for step, weight in self._steps(n, POINTS)]
+
     def _steps(self, n, points):
         """[(step, weight)] of the polynomial for entry n; one step if the entry is a step."""
         at, points = self.moments[n], min(points, len(self.run))

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi.engine.fftw import SINGLE
 from tehl_taichi.fatigue import depth_profile, depth_search, every_moment, findley
 from tehl_taichi.fatigue.averaged_surface import AveragedSurface
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.sought import Box
-from tehl_taichi.fatigue.stress import held_heat
+from tehl_taichi.fatigue.stress import held_heat, windowed
 from tehl_taichi.fatigue.stress.averaging import AveragedReader, averaged_reader
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
@@ -210,6 +211,17 @@ def test_critical_points_are_followed_between_the_steps_of_the_run(surface, shar
         f = float(findley.search(stress[None], new.local.kappa)[0][0])
         assert new.f >= old.f and abs(new.f - f) < 0.01 * f
     assert top.f.max() == top.worst.f > layers[0].worst.f
+
+
+@pytest.mark.parametrize("length", [0.0, 6e-5])
+def test_loads_between_steps_are_those_of_the_steps_around(length):
+    """So their stresses follow from those of the steps."""
+    reader = zoomed(GEAR, 2, since=3, between=True).every
+    reader = averaged_reader(reader, length) if length else reader
+    passage = StressHistories(GEAR, reader, np.array([reader.feature_x(n) for n in range(len(reader))]))
+    base, block = windowed.BasePart(passage, [0.0, 2e-5], [0, 3], SINGLE), passage.blocks[1]
+    found, own = base._stresses(block), base._of_loads(block, np.arange(len(block)))
+    assert len(base.known) < 0.7 * len(reader) and np.abs(found - own).max() < 1e-5 * np.abs(own).max()
 
 
 @pytest.mark.parametrize("scene", [GEAR, OFF_AXIS], ids=["half domain", "off the axis"])
