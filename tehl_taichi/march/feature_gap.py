@@ -15,6 +15,9 @@ def smooth_with(levels, features):
 
 def with_features(gap, levels, surfaces, X):
     """Copy of the gap (ny+1, nx+1) with the features of both surfaces; X: displacement of the first one, a."""
+    if len(surfaces) > 1 and all(surface.features for surface in surfaces):  # bodies that change places have equal bits
+        own, other = (with_features(np.zeros_like(gap), levels, [surface], X) for surface in surfaces)
+        return gap + (own + other)
     gap = gap.copy()
     for surface in surfaces:
         for feature in surface.features:

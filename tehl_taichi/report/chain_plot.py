@@ -54,8 +54,8 @@ def _load(store):
     """Lines of the pressure along the row of lines at the moment of its largest value (of that in a zoom window, where there is
     one), and of the smooth contact.
     """
-    a, moments, window = Scales.of(store.scene).a, Moments(store), ZoomWindow.of(store)
-    row = window.row(store.y[moments.line]) if window and window.entries.size else None
+    a, moments, window = Scales.of(store.scene).a, Moments(store), ZoomWindow.with_most(store)
+    row = window.row(store.y[moments.line]) if window else None
     worst, X = moments.worst if row is None else window.worst, store.x / a
     shown = (X >= WINDOW[0]) & (X <= WINDOW[1])
     p = {n: store.fields(n, ("pressure",))["pressure"][shown, moments.line] / 1e9 for n in (worst, 0)}

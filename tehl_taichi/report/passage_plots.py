@@ -129,14 +129,15 @@ def histories(store):
     """Figure of extremes and friction over the position of the feature; None without a passage."""
     if store.steps < 3:
         return None
-    x, window = store.scalar("feature_x")[1:] / Scales.of(store.scene).a, ZoomWindow.of(store)
+    x, windows = store.scalar("feature_x")[1:] / Scales.of(store.scene).a, ZoomWindow.all_of(store)
     panels: list[tuple] = []
     for title, factor, names in HISTORIES:
         found = {name: text for name, text in names.items() if name in store.series and np.ptp(store.scalar(name)[1:]) > 0}
         lines = [line(x, store.scalar(name)[1:] * factor, text, colour(n + bool(text)), len(panels) + 1, in_legend=bool(text))
                  for n, (name, text) in enumerate(found.items())]
-        lines += [line(x[window.entries - 1], window.extremes(name) * factor, "zoom window", colour(4), len(panels) + 1,
-                       in_legend=not panels) for name in found if window and name in EXTREMES]
+        lines += [line(x[window.entries - 1], window.extremes(name) * factor, f"zoom window{window.number}", colour(4 + n),
+                       len(panels) + 1, in_legend=not panels)
+                  for name in found if name in EXTREMES for n, window in enumerate(windows)]
         if lines:
             panels.append((title, lines, {}))
     caption = f"One value per time step; the contact lies between −1 and 1.{_carries(store)}"

@@ -1,4 +1,4 @@
-"""Zoom window of a run at its largest pressure: lines along the row through the feature on both grids, and maps."""
+"""Zoom windows of a run at their largest pressure: lines along the row through the feature on both grids, and maps."""
 
 import numpy as np
 
@@ -15,12 +15,17 @@ from tehl_taichi.view.zoom_window import ZoomWindow
 
 def section(store):
     """(:class:`Section`,), or () without a window."""
-    window = ZoomWindow.of(store)
-    if window is None or not window.entries.size:
+    windows = [window for window in ZoomWindow.all_of(store) if window.entries.size]
+    if not windows:
         return ()
+    rows = [row for window in windows for row in _rows(store, window)]
+    return (Section(f"Zoom window{'s' * bool(windows[1:])}", tuple(figure_block(*row) for row in rows if row)),)
+
+
+def _rows(store, window):
+    """Rows of figures of one window."""
     lines = _lines(store, window)
-    rows = ((lines,) if lines else (), _maps(store, window))
-    return (Section("Zoom window", tuple(figure_block(*row) for row in rows if row)),)
+    return [(lines,) if lines else (), _maps(store, window)]
 
 
 def _lines(store, window):
@@ -38,7 +43,13 @@ def _lines(store, window):
             panels.append((title, [line(x / moments.a, values * factor, text, hue, len(panels) + 1, in_legend=not panels)
                                    for x, values, text, hue in both], _ends(store, name)))
     along = f"{moments.along[0].upper()}{moments.along[1:]}"
-    return stack("zoom-lines", f"{along}, {moments.says(n)}: the largest pressure of the window.", ALONG, panels)
+    text = f"{along}, {moments.says(n)}: the largest pressure of the window{window.number}."
+    return stack(f"{_name(window)}-lines", text, ALONG, panels)
+
+
+def _name(window):
+    """Beginning of the names of its figures."""
+    return window.first.removesuffix("_")
 
 
 def _ends(store, name):
@@ -52,13 +63,14 @@ def _maps(store, window):
         return ()
     moments, n = Moments(store), window.worst
     x, found = window.columns(n) / moments.a, window.fields(n, ("pressure", "film"))
-    return tuple(_map(moments, x, window.y, name, values) for name, values in found.items())
+    return tuple(_map(moments, x, window, name, values) for name, values in found.items())
 
 
-def _map(moments, x, rows, name, values):
+def _map(moments, x, window, name, values):
     title, factor, unit, colours = SHOWN[name]
-    y, full = mirrored(rows / moments.a, values * factor)
+    y, full = mirrored(window.y / moments.a, values * factor)
     top = ROOM * float(np.median(full)) if name == "film" else float(full.max())
     over = f", thicker than {top:.3g} µm in the last colour" * bool(full.max() > top)
-    return field_map(f"zoom-{name}", f"{title.capitalize()} in the window{over}.", x, y, full, colours, unit, ALONG, "y / a",
+    text = f"{title.capitalize()} in the window{window.number}{over}."
+    return field_map(f"{_name(window)}-{name}", text, x, y, full, colours, unit, ALONG, "y / a",
                      zmin=float(full.min()), zmax=top)

@@ -1,11 +1,8 @@
-"""Fatigue of a finished run with its zoom window, from the stored fields of the window."""
+"""Fatigue of a finished run with its zoom windows, from the stored fields of the windows."""
 
 from dataclasses import replace
 
-import numpy as np
-
 from tehl_taichi.march.zoom.read_once import ReadOnce
-from tehl_taichi.march.zoom.window import Window
 from tehl_taichi.march.zoom.zoomed_passage import ZoomedPassage
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
 from tehl_taichi.runs import zoomed_points, zoomed_run
@@ -14,32 +11,26 @@ from tehl_taichi.view.zoom_window import EXTREMES, ZoomWindow
 
 
 def refined(store, scene, alone, progress=None, until=None):
-    """Search the run with its window, as the run itself does; return the SearchResult, `alone` if it has no window.
+    """Search the run with its windows, as the run itself does; return the SearchResult, `alone` if it has none.
 
     scene: of the run, with other constants of fatigue. alone: SearchResult of the run without its window, which determines the
     searched points. until: position (a) of the feature, see :func:`tehl_taichi.runs.zoomed_run.searched`.
     """
-    window = ZoomWindow.of(store)
-    if window is None or not window.entries.size:
+    windows = ZoomWindow.all_of(store)
+    if not windows or not windows[0].entries.size:
         return alone
-    reader = ZoomedReader(ReadOnce(store), _passage(store, window), scene.symmetric)
+    reader = ZoomedReader(ReadOnce(store), [_passage(window) for window in windows], scene.symmetric)
     found = zoomed_run.searched(store, scene, reader, zoomed_points.ends(scene, alone), progress or Progress(), until)
     return _with_summaries(zoomed_points.deeper(found, alone), _completed(found.summaries, alone.summaries))
 
 
-def _passage(store, window):
+def _passage(window):
     """The ZoomedPassage of a stored window, with the extremes of its stored moments."""
-    place = Window.of(store.scene, store.scene.zoom.factor)
-    fine = (store.x[1] - store.x[0]) / place.factor
-
-    def origins(lefts):
-        return np.round((lefts - store.x[0]) / fine).astype(int).tolist()
-
     fields = {name: [window.fields(entry, [name])[name] for entry in window.entries] for name in window.names}
     at, lefts, parts = window.between
-    return ZoomedPassage(place, window.entries.tolist(), origins(window.lefts), fields,
+    return ZoomedPassage(window.place_on_grid, window.entries.tolist(), window.origins(window.lefts).tolist(), fields,
                          {name: window.extremes(name) for name in EXTREMES},
-                         list(zip(at.tolist(), origins(lefts), parts)))
+                         list(zip(at.tolist(), window.origins(lefts).tolist(), parts)))
 
 
 def _completed(summaries, run):

@@ -26,13 +26,13 @@ def reason(run):
 
 def work(store, factor):
     """Estimated time of a run with windows of this factor and of half of it, over the time of the run without them."""
-    from tehl_taichi.march.zoom.window import Window
+    from tehl_taichi.march.zoom.window import windows_of
     from tehl_taichi.march.zoom.zoomed_passage import LEAD
 
     scene, (first, end), place = store.scene, store.scene.path, begin(store)
     part = 1.0 if place is None else min((end - place + LEAD) / (end - first), 1.0)
     cells = scene.grid.nx * max(scene.rows, 1)
-    windows = [Window.of(scene, one) for one in levels(factor)]
+    windows = [window for one in levels(factor) for window in windows_of(scene, one)]
     return 1.0 + part * SLOWER * sum(w.factor * w.nx * max(w.ny, 1) for w in windows) / cells
 
 

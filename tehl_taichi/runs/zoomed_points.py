@@ -6,11 +6,13 @@ import numpy as np
 
 from tehl_taichi.fatigue.depth_profile import RATIO
 from tehl_taichi.fatigue.sought import Box
+from tehl_taichi.scene import zoom_room
 from tehl_taichi.scene.scales import Scales
 
 # share of the largest stress at the surface and below it from which a point is searched again. Below, the smooth contact alone
 # causes a large part of the stress
 SURFACE, BELOW = 0.7, 0.9
+EVERYWHERE = -np.inf, np.inf
 BESIDE = 0.06  # a: distance searched around these points
 LEAST = 5  # least number of depths: stresses between them are interpolated by cubics
 KEPT = "statistics", "stressed"  # parts of the summary of the run that are kept, since they need all points
@@ -19,11 +21,14 @@ KEPT = "statistics", "stressed"  # parts of the summary of the run that are kept
 def ends(scene, found):
     """{surface: Box} of the points to search again; {}: all (rough surfaces).
 
+    With several windows those of all places: the run may see too little of the feature that is worst with its window.
     found: SearchResult of the run without a window.
     """
     if found.numbers.get("rough"):
         return {}
     deepest = max(_deepest(one) for one in found.by_surface.values())
+    if zoom_room.followed(scene)[1:]:
+        return dict.fromkeys(found.by_surface, Box(EVERYWHERE, EVERYWHERE, (0.0, deepest)))
     return {name: _of(one, Scales.of(scene).a, deepest) for name, one in found.by_surface.items()}
 
 

@@ -20,6 +20,7 @@ from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader, extreme
 from tehl_taichi.runs import zoom_need, zoomed_points
 from tehl_taichi.runs.progress import ZOOM
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.view.zoom_window import FIRST
 
 FIELDS = {"pressure": ("Pa", "pressure in the zoom window"), "film": ("m", "film thickness in the zoom window"),
           **{f"traction_{axis}_{body}": ("Pa", f"shear on body {body} along {axis} in the zoom window")
@@ -29,15 +30,13 @@ FIELDS = {"pressure": ("Pa", "pressure in the zoom window"), "film": ("m", "film
 EARLY = {"h_min_m": coarse_runs.MIDDLE,
          **dict.fromkeys((coarse_runs.FI, coarse_runs.AVERAGED), coarse_runs.RESOLVED),
          **dict.fromkeys((coarse_runs.BELOW, coarse_runs.AVERAGED_BELOW), coarse_runs.RESOLVED_BELOW)}
-DIMS = ["zoom_moment", "zoom_x", "zoom_y"]
-BETWEEN = "zoom_between"  # dimension of the moments between the steps of the run, and the first part of their names
 
 
 @dataclass
 class ZoomLevel:
-    """One window: its passage, the reader of the run with it, and {surface: summary of the search}."""
+    """Windows of one factor: their passages, the reader of the run with them, and {surface: summary of the search}."""
 
-    passage: zoomed_passage.ZoomedPassage
+    passages: list[zoomed_passage.ZoomedPassage]
     reader: ZoomedReader
     searches: dict = field(default_factory=dict)
 
@@ -113,7 +112,7 @@ def corrected(saved, found, searches, passage, domain):
                if name not in grids[0] or reading.value != grids[0][name].value}
     sizes, reasons = bars(grids, passing=True)
     sizes, reasons = ({name: one for name, one in part.items() if name in changed} for part in (sizes, reasons))
-    if found[-1].passage.entries[:1] > [1]:
+    if found[-1].passages[0].entries[:1] > [1]:
         sizes = _with_early(sizes, passage.get("passage_parts", {}))
     values = {name: grids[-1][name].value for name in changed}
     known, unknown, parts = widened(sizes, reasons, values, domain, saved.scene.operation.temperature, passing=True)
@@ -143,16 +142,23 @@ def summary(saved, found, errors, searches):
     errors: result of :func:`corrected`; searches: {surface: summary} of the finest level.
     """
     last = found[-1]
-    w, scene, keys = last.passage.window, saved.scene, list(last.reader.series)
-    out = {"factor": w.factor, "window_a": [w.nx * w.dx, _width(scene, w)], "cells": [w.nx, w.ny],
+    scene, keys = saved.scene, list(last.reader.series)
+    sizes = [_size(scene, one.window) for one in last.passages]
+    out = {"factor": last.reader.factor, **sizes[0], **({"windows": sizes} if sizes[1:] else {}),
            **{key: extreme(last.reader, key) for key in keys}}
     bars_of = {key: errors["passage_error"].get(key) for key in keys}
     if searches:
         out |= {"Fi_max": max(_largest(one) for one in searches.values())}
     out |= {"error": bars_of, "base": {key: extreme(saved, key) for key in keys},
-            "from_a": _position(saved, last.passage.entries[:1]), "to_a": _position(saved, last.passage.entries[-1:]),
-            "newton_per_step": last.passage.newton / max(last.passage.attempts, 1)}
-    return out | ({"ended": last.passage.ended} if last.passage.ended else {})
+            "from_a": _position(saved, last.passages[0].entries[:1]), "to_a": _position(saved, last.passages[0].entries[-1:]),
+            "newton_per_step": sum(one.newton for one in last.passages) / max(sum(one.attempts for one in last.passages), 1)}
+    ended = next((one.ended for one in last.passages if one.ended), "")
+    return out | ({"ended": ended} if ended else {})
+
+
+def _size(scene, w):
+    """Width along x and y (a) and cells of a Window."""
+    return {"window_a": [w.nx * w.dx, _width(scene, w)], "cells": [w.nx, w.ny]}
 
 
 def _largest(search):
@@ -173,27 +179,35 @@ def _position(saved, entries):
 
 
 def arrays(found):
-    """{name: (values, dimensions, unit, long name)} of the finest level, for the store."""
-    last, w = found[-1].passage, found[-1].passage.window
-    x, rows = found[-1].reader.x, found[-1].reader.y[w.row : w.row + w.ny + 1]
+    """{name: (values, dimensions, unit, long name)} of the windows of the finest level, for the store."""
+    last = found[-1]
+    return {name: one for first, passage in zip(FIRST, last.passages)
+            for name, one in _of_window(last.reader, passage, first).items()}
+
+
+def _of_window(reader, last, first):
+    """Arrays of a ZoomedPassage as of :func:`arrays`; `first` begins their names."""
+    x, w, dims = reader.x, last.window, [f"{first}{axis}" for axis in ("moment", "x", "y")]
+    rows = reader.y[w.row : w.row + w.ny + 1]
     stacked = {name: np.stack(values) for name, values in last.fields.items() if values}
-    out = _moments(x, last.entries, last.origins, stacked, "zoom", DIMS[0], "entry of the run at each moment of the zoom")
-    out["zoom_x"] = np.arange(w.nx + 1) * (x[1] - x[0]), ["zoom_x"], "m", "distance from the first column of the zoom window"
-    out["zoom_y"] = rows, ["zoom_y"], "m", "across, in the zoom window"
+    out = _moments(x, last.entries, last.origins, stacked, first, dims, "entry of the run at each moment of the zoom")
+    out[dims[1]] = np.arange(w.nx + 1) * (x[1] - x[0]), dims[1:2], "m", "distance from the first column of the zoom window"
+    out[dims[2]] = rows, dims[2:], "m", "across, in the zoom window"
     if not last.between:
         return out
     at, origins, between = zip(*last.between)
     stacked = {name: np.stack([one[name] for one in between]) for name in between[0]}
-    return out | _moments(x, at, origins, stacked, BETWEEN, BETWEEN, "moment of the zoom between two entries of the run")
+    dims = [f"{first}between", *dims[1:]]
+    return out | _moments(x, at, origins, stacked, f"{dims[0]}_", dims, "moment of the zoom between two entries of the run")
 
 
-def _moments(x, at, origins, stacked, first, dimension, what):
+def _moments(x, at, origins, stacked, first, dims, what):
     """Arrays of some moments of a window, as of :func:`arrays`; their names begin with `first`.
 
-    x: fine columns (m). at: entries of the run, or places between them. stacked: {name: (moments, columns, rows)}. what: long
-    name of `at`.
+    x: fine columns (m). at: entries of the run, or places between them. stacked: {name: (moments, columns, rows)}, with these
+    dimensions. what: long name of `at`.
     """
-    out = {f"{first}_{name}": (values, [dimension, *DIMS[1:]], *FIELDS[name]) for name, values in stacked.items()}
-    out[f"{first}_entry"] = np.array(at, float), [dimension], "1", what
-    out[f"{first}_left"] = x[np.array(origins, int)], [dimension], "m", "x of the first column of the zoom window"
+    out = {f"{first}{name}": (values, dims, *FIELDS[name]) for name, values in stacked.items()}
+    out[f"{first}entry"] = np.array(at, float), dims[:1], "1", what
+    out[f"{first}left"] = x[np.array(origins, int)], dims[:1], "m", "x of the first column of the zoom window"
     return out

@@ -16,6 +16,7 @@ from tehl_taichi.scene import (
     surface_roughness,
     thin_film,
     timeline,
+    zoom_room,
 )
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.strength.table import HARDNESS
@@ -111,12 +112,12 @@ def beyond_relation(scene):
 
 
 def left_out_of_window(scene):
-    """Features that the window of a zoom does not follow."""
-    followed = scene.reference.name
-    if scene.zooms and any(surface.name != followed for surface, _ in scene.passing):
-        other = "b" if followed == "a" else "a"
-        yield with_data(f"the window of --zoom moves with the features of surface {followed}; of those of surface {other} it "
-                        "resolves only what lies in it at the same time", surface=followed)
+    """Features that have no window although they pass, because they leave no space for one."""
+    for surface in zoom_room.others(scene) if scene.zooms else []:
+        if why := zoom_room.no_room(scene, surface):
+            followed = scene.reference.name
+            yield with_data(f"surface {surface.name} has no window of its own ({why}); the window of surface {followed} "
+                            "resolves only the features that lie in it at the same time", surface=followed)
 
 
 def wide_domain(scene):

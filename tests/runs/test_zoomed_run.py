@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,6 +14,7 @@ from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.report import chain_plot
 from tehl_taichi.store.reader import Reader
+from tehl_taichi.view.zoom_window import ZoomWindow
 
 LINE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid.nx": 64, "thermal.on": False,
                                            "fatigue.surfaces": "a", "time.x_end": 0.4, "numerics.estimate_error": False})
@@ -172,7 +174,7 @@ def test_a_window_that_ends_early_is_a_warning(folder, monkeypatch):
 
     def end(scene, reader, factors, *more):
         passages = whole(scene, reader, factors, *more)
-        for found in passages:
+        for found, in passages:
             for values in (found.entries, found.origins, *found.fields.values()):
                 del values[20:]
             found.ended = "it did not converge with the feature at -0.37 a"
@@ -192,3 +194,42 @@ def test_without_a_window_only_its_check_is_loaded(tmp_path):
             "'a.zarr'); print([name for name in sys.modules if 'zoom' in name or 'windowed' in name])")
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, text=True, capture_output=True)
     assert done.stdout.strip().splitlines()[-1] == "['tehl_taichi.scene.zoom_room']", done.stderr[-500:]
+
+
+@pytest.fixture(scope="module")
+def of_both():
+    """A line with a dent on body a and an asperity on b."""
+    dent, asperity = (replace(LINE.features[0], surface=name, height=height, x=x)
+                      for name, height, x in (("a", -1.5e-6, 0.0), ("b", 1.5e-6, -2e-4)))
+    return replace(LINE, features=(dent, asperity)).replace(srr=0.12, **{"fatigue.surfaces": "both"})
+
+
+@pytest.fixture(scope="module")
+def with_two(of_both, folder):
+    return tehl.zoom(tehl.run(of_both, folder / "two.zarr").path, 4)
+
+
+def test_features_of_both_bodies_have_windows(of_both, with_two, folder):
+    """The largest pressure and the smallest film are those of the asperity, outside of the window of the dent."""
+    fine = tehl.run(of_both.replace(**{"grid.nx": 256}), folder / "two_fine.zarr").summary
+    zoom, (p, h) = with_two.summary["zoom"], (fine["transient"][key] for key in ("p_max_Pa", "h_min_m"))
+    assert len(zoom["windows"]) == 2 and zoom["windows"][0]["window_a"] == zoom["window_a"]
+    assert abs(zoom["p_max_Pa"] - p) < 0.006 * p
+    assert abs(zoom["h_min_m"] - h) < min(zoom["error"]["h_min_m"], 0.2 * abs(zoom["base"]["h_min_m"] - h))
+    first, second = (window.extremes("p_max_Pa").max() for window in ZoomWindow.all_of(with_two.store))
+    assert second == pytest.approx(zoom["p_max_Pa"], rel=0.01) and first < 0.8 * second
+    assert ZoomWindow.with_most(with_two.store).first == "zoom2_"
+    for name in "ab":
+        now, there = (one["fatigue_by_surface"][name] for one in (with_two.summary, fine))
+        assert abs(now["Fi_max"] - there["Fi_max"]) < 0.01 * there["Fi_max"]
+        assert abs(now["below"]["Fi_max"] - there["below"]["Fi_max"]) < 0.01 * there["below"]["Fi_max"]
+
+
+def test_two_windows_are_stored_and_searched_again(of_both, with_two, folder):
+    whole = tehl.run(of_both.replace(**{"zoom.factor": 4}), folder / "two_whole.zarr")
+    assert numbers(whole.summary) == numbers(with_two.summary)
+    store, again = whole.store, whole.fatigue().summaries
+    assert store.map("zoom2_pressure").shape[0] == store.map("zoom_pressure").shape[0]
+    for name, stored in whole.summary["fatigue_by_surface"].items():
+        for now, there in ((again[name], stored), (again[name]["below"], stored["below"])):
+            assert now["Fi_max"] == pytest.approx(there["Fi_max"], rel=1e-6) and now["x_m"] == pytest.approx(there["x_m"])

@@ -114,13 +114,15 @@ def test_doubts_reach_the_store_and_its_summary(taichi_cpu, tmp_path):
     assert any("8.8 cells" in line for line in Store.open(tmp_path / "s.zarr").warnings)
 
 
-@pytest.mark.parametrize("surfaces, srr, warned", [("a", -0.12, False), ("ab", -0.12, True), ("aa", -0.12, False),
-                                                   ("ab", 2.0, False)])
-def test_a_window_rides_with_one_surface(surfaces, srr, warned):
+@pytest.mark.parametrize("surfaces, srr, reach, warned", [("a", -0.12, 1.0, False), ("ab", -0.12, 1.0, False),
+                                                          ("ab", -0.12, 9.0, True), ("ab", 2.0, 9.0, False)])
+def test_features_without_space_for_a_window_are_a_warning(surfaces, srr, reach, warned):
     """A feature of a surface at rest does not pass."""
-    features = tuple(Feature(shape="cosine", height=1e-6, width=200e-6, surface=name) for name in surfaces)
+    features = tuple(Feature(shape="cosine", height=1e-6, width=200e-6 * (reach if name == "b" else 1.0), surface=name)
+                     for name in surfaces)
     zoomed = dataclasses.replace(GEAR, features=features).replace(srr=srr, **{"zoom.factor": 4})
-    assert ("window" in [one.code for one in zoomed.warnings()]) == warned
+    found = [one for one in zoomed.warnings() if one.code == "window"]
+    assert bool(found) == warned and all("surface b has no window of its own (zoom.factor = 4: " in one for one in found)
     assert "window" not in [one.code for one in zoomed.replace(**{"zoom.factor": 0}).warnings()]
 
 

@@ -14,9 +14,10 @@ from tehl_taichi.view.figures import field_maps, line_figures, zoom_maps
 from tehl_taichi.view.figures.figure_style import FigureStyle
 from tehl_taichi.view.figures.frames import Frames
 from tehl_taichi.view.figures.moments import Moments
-from tehl_taichi.view.zoom_window import ALONG, ZoomWindow
+from tehl_taichi.view.zoom_window import ZoomWindow
 
 pytest.importorskip("matplotlib")
+ALONG = "zoom_moment", "zoom_x", "zoom_y"
 ENTRIES, COLUMNS, ROWS, CELL = (2, 3), 9, 5, 5e-6
 LEFTS, X, Y = np.array([1e-4, 2e-4]), np.arange(COLUMNS) * CELL, np.arange(ROWS) * CELL
 PLACES = {"zoom_entry": (np.array(ENTRIES, float), [ALONG[0]], "1", "entry"), "zoom_left": (LEFTS, [ALONG[0]], "m", "left"),
@@ -98,9 +99,9 @@ def test_frames_of_a_film_have_it_and_room_for_its_values(store):
     with page.style():
         frames = Frames(page, Moments(store), [1, 3], "pressure")
     first, last = frames.picture(1), frames.picture(3)
-    line = next(line for line, field, _ in frames.window.lines if field == "pressure")
+    line = next(line for line, field, _ in frames.windows[0].lines if field == "pressure")
     assert (first != last).any() and np.allclose(line.get_ydata(), values(3, 1.0)[:, 0])
-    left, right, low, high = frames.window.patch.get_extent()
+    left, right, low, high = frames.windows[0].patch.get_extent()
     assert np.allclose((left, right), (2e-4 + X[[0, -1]]) / store.a)
     assert np.allclose((low, high), (-Y[-1] / store.a, Y[-1] / store.a))
     whole = max(store.fields(3, ["pressure"])["pressure"].max(), values(3, 1e9).max()) / 1e9

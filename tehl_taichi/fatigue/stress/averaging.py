@@ -62,29 +62,37 @@ class AveragedReader:
 
 
 class WindowedAverages(AveragedReader):
-    """Averaged reader with an averaged window (:class:`tehl_taichi.fatigue.stress.windowed.WindowedStresses`)."""
+    """Averaged reader with averaged windows (:class:`tehl_taichi.fatigue.stress.windowed.WindowedStresses`)."""
 
     def __init__(self, reader, length):
         super().__init__(reader, length)
-        self.window, self.base = reader.window, AveragedReader(reader.base, length)
+        self.factor, self.base = reader.factor, AveragedReader(reader.base, length)
         self.averaged, self.kept_heat, self.tables = length, reader.kept_heat, reader.tables
-        self.at_axis = self.mirrored and self.window.row == 0
+        self.windows = [AveragedWindow(self, window) for window in reader.windows]
 
     @property
     def every(self):
-        """The averaged reader of all moments of the window, or None."""
+        """The averaged reader of all moments of the windows, or None."""
         return self.reader.every and WindowedAverages(self.reader.every, self.averaged)
+
+
+class AveragedWindow:
+    """A window of a reader with its loads and temperatures averaged; reader: the WindowedAverages."""
+
+    def __init__(self, reader, window):
+        self.reader, self.window, self.extent, self.pace = reader, window, window.extent, window.pace
+        self.at_axis = reader.mirrored and window.extent.row == 0
 
     def inside(self, n, names):
         """The Inside of entry n, or None."""
-        if (found := self.reader.inside(n, names)) is None:
+        if (found := self.window.inside(n, names)) is None:
             return None
-        return replace(found, fine=self._parts(self, found.fine), coarse=self._parts(self.base, found.coarse))
+        return replace(found, fine=self._parts(self.reader, found.fine), coarse=self._parts(self.reader.base, found.coarse))
 
     def difference(self, n, name):
         """(first fine column, (columns, rows) K of the window less the run) of entry n, or None."""
-        found = self.reader.difference(n, name)
-        return found and (found[0], self._parts(self, {name: found[1]})[name])
+        found = self.window.difference(n, name)
+        return found and (found[0], self._parts(self.reader, {name: found[1]})[name])
 
     def _parts(self, of, fields):
         return {name: averaged(averaged(field, of.along), of.across, 1, self.at_axis, name.startswith("traction_y"))
@@ -98,4 +106,4 @@ def averaged_reader(reader, length):
 
 def has_window(reader):
     """Whether a reader has a fine window."""
-    return hasattr(reader, "window")
+    return hasattr(reader, "windows")

@@ -32,12 +32,18 @@ def _rises(passage, entry, first, count):
     reader, name, band, front = passage.reader, f"temperature_{passage.surface.name}", passage.band(entry), passage.pad[0]
     run = np.asarray(reader.base.fields(entry, (name,))[name], float).T
     size = count, band.stop - band.start
-    refining = Refining((first, band.start - front), size, reader.window.factor, run.shape, is_mirrored(reader))
+    refining = Refining((first, band.start - front), size, reader.factor, run.shape, is_mirrored(reader))
     out = np.zeros((passage.grid_x.size, count))
     out[band] = refining.smooth(run, POINTS).T
-    if (found := reader.difference(entry, name)) is not None:
-        column, change = found
-        rows = first + np.arange(count) - reader.window.row
-        inside = (rows >= 0) & (rows < reader.window.rows)
-        out[front + column : front + column + len(change), inside] += change[:, rows[inside]]
+    for window in reader.windows:
+        _add_change(out[front:], window, entry, name, first)
     return (out - passage.scene.operation.temperature)[..., None]
+
+
+def _add_change(out, window, entry, name, first):
+    """Add the change of a temperature by a window of the reader to `out` (columns, rows from `first` on) K."""
+    if (found := window.difference(entry, name)) is not None:
+        column, change = found
+        rows = first + np.arange(out.shape[1]) - window.extent.row
+        inside = (rows >= 0) & (rows < window.extent.rows)
+        out[column : column + len(change), inside] += change[:, rows[inside]]

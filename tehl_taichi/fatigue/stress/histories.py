@@ -130,7 +130,7 @@ class StressHistories:
     @property
     def run_dx(self):
         """Cell of the run along x, m; the cell `dx` of a reader with a fine window is smaller."""
-        return self.dx * (self.reader.window.factor if has_window(self.reader) else 1)
+        return self.dx * (self.reader.factor if has_window(self.reader) else 1)
 
     def _widen(self, first, last):
         """Set `grid_x`, the grid with unloaded columns (`pad`) on both sides, which no material point leaves; first, last: of

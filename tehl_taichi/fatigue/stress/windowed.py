@@ -1,10 +1,10 @@
-"""Stresses of a run with a fine window: the stresses of the run on its own grid, and their change by the window.
+"""Stresses of a run with fine windows: the stresses of the run on its own grid, and their change by the windows.
 
-Inside the window its loads replace the loads of the run. The half-space is linear, so the stresses are a sum of two parts:
+Inside a window its loads replace the loads of the run. The half-space is linear, so the stresses are a sum of parts:
 
 * the stresses of the run's loads, computed on the grid of the run and interpolated;
-* at the nodes of the window, the stresses of its loads less the stresses of the replaced loads of the run. Both are computed on
-  grids of the window's size. Details of the run's loads inside the window cancel.
+* at the nodes of each window, the stresses of its loads less the stresses of the replaced loads of the run. Both are computed
+  on grids of the window's size. Details of the run's loads inside the window cancel.
 
 So no stress is computed on a fine grid of the whole contact. Temperatures are treated likewise (`windowed_heat`).
 """
@@ -29,9 +29,10 @@ BESIDE = 16  # the grid is extended by a multiple of so many columns, so that wi
 class Inside:
     """A window at one entry of the reader.
 
-    column: number of its first fine column. core: (columns, rows), weight of the window's values, 1 inside and 0 at its rim.
-    fine, coarse: {name: (columns, rows) Pa}, loads times this weight: of the window at its nodes, and of the run at the run's
-    nodes, which begin MARGIN cells before the window.
+    column: number of its first fine column. core: (columns, rows), weight of its change of the stresses, 1 inside and 0 at its
+    rim. fine, coarse: {name: (columns, rows) Pa}, loads times the weight of the window's values, which is that of the core, but
+    less where another window overlaps it: of the window at its nodes, and of the run at the run's nodes, which begin MARGIN
+    cells before the window.
     """
 
     column: int
@@ -71,22 +72,25 @@ class Extent:
 
 
 class WindowedStresses:
-    """Stresses of the loads of the entries of a passage whose reader has a window; used by
+    """Stresses of the loads of the entries of a passage whose reader has windows; used by
     :mod:`tehl_taichi.fatigue.stress.row_histories`.
 
-    passage: StressHistories of a reader with `window` (:class:`Extent`), `base` (reader of the run without the window) and
-    `inside(entry, names)`, which returns the :class:`Inside` or None. depths: (n,) m, increasing; rows: numbers of fine rows of
+    passage: StressHistories of a reader with `base` (reader of the run without windows), `factor` (fine cells per cell of the
+    run) and `windows`, a list; each has `extent` (:class:`Extent`) and `inside(entry, names)`, which returns the
+    :class:`Inside` or None. depths: (n,) m, increasing; rows: numbers of fine rows of
     the reader; kind: precision of the transforms.
     """
 
     def __init__(self, passage, depths, rows, kind):
         rows = np.asarray(rows)
-        self.base, self.window = BasePart(passage, depths, rows, kind), WindowPart(passage, depths, rows, kind)
+        self.base = BasePart(passage, depths, rows, kind)
+        self.windows = [WindowPart(passage, window, depths, rows, kind) for window in passage.reader.windows]
 
     def __call__(self, block):
         """Stresses (entries, columns, rows, depths, 6) Pa of the entries of one block."""
         out = self.base(block)
-        self.window.add(out, block)
+        for window in self.windows:
+            window.add(out, block)
         return out
 
 
@@ -133,11 +137,11 @@ class BasePart:
 
 
 class WindowPart:
-    """Change of the stresses by the window; arguments: :class:`WindowedStresses`."""
+    """Change of the stresses by a window of the reader; other arguments: :class:`WindowedStresses`."""
 
-    def __init__(self, passage, depths, rows, kind):
-        reader, self.passage, self.kind = passage.reader, passage, kind
-        w = self.extent = reader.window
+    def __init__(self, passage, window, depths, rows, kind):
+        reader, self.passage, self.window, self.kind = passage.reader, passage, window, kind
+        w = self.extent = window.extent
         self.within = np.flatnonzero((rows >= w.row) & (rows < w.row + w.rows))
         self.own = rows[self.within] - w.row
         self.odd = Folded(w.factor, w.coarse_rows, rows[self.within], len(reader.base.y), mirrored=is_mirrored(reader))
@@ -165,7 +169,7 @@ class WindowPart:
                 self._put(out[at], inside, fine[here], coarse[here])
 
     def _inside(self, entry):
-        return self.passage.reader.inside(entry, self.passage.loads_of)
+        return self.window.inside(entry, self.passage.loads_of)
 
     def _stresses(self, found, part, operator):
         """Stresses (entries of a block, columns, rows, depths, 6) Pa of the loads of one part, "fine" or "coarse"."""
@@ -224,7 +228,7 @@ class RunNodes:
     """
 
     def __init__(self, passage, rows):
-        reader, factor = passage.reader, passage.reader.window.factor
+        reader, factor = passage.reader, passage.reader.factor
         before, after = (-(-(cells + factor * MARGIN) // (factor * BESIDE)) * BESIDE for cells in passage.pad)
         x, self.front = np.asarray(reader.base.x), before
         self.x = x[0] + (np.arange(x.size + before + after) - before) * (x[1] - x[0])

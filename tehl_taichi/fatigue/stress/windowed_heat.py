@@ -1,4 +1,4 @@
-"""Thermal stresses of a run with a fine window: of the run's temperatures, and of the difference that the window makes."""
+"""Thermal stresses of a run with fine windows: of the run's temperatures, and of the difference that each window makes."""
 
 import functools
 
@@ -16,11 +16,11 @@ SIDE = max(NODES) + 1  # columns on each side of a field that the interpolation 
 
 
 class WindowedHeat:
-    """Thermal stress of the body of a passage whose reader has a window; used like ThermalStress or ThermalBelow.
+    """Thermal stress of the body of a passage whose reader has windows; used like ThermalStress or ThermalBelow.
 
-    passage: StressHistories; its reader is as for :class:`tehl_taichi.fatigue.stress.windowed.WindowedStresses` and has
-    `difference(entry, name)`, which returns (first fine column, (columns, rows) K of the window less the run) or None. kind,
-    of_change: functions that make the thermal stress of the run and of the difference.
+    passage: StressHistories; its reader is as for :class:`tehl_taichi.fatigue.stress.windowed.WindowedStresses`, and its
+    windows have `pace` and `difference(entry, name)`, which returns (first fine column, (columns, rows) K of the window less
+    the run) or None. kind, of_change: functions that make the thermal stress of the run and of the difference.
     """
 
     @classmethod
@@ -38,9 +38,8 @@ class WindowedHeat:
         self.passage, self.reader = passage, passage.reader
         self.kind, self.nodes = kind, RunNodes(passage, np.zeros(0, int))
         self.entries = {int(tick): entry for entry, tick in enumerate(passage.ticks)}
-        found = [self.reader.difference(n, f"temperature_{passage.surface.name}") for n in range(len(self.reader))]
-        self.frame = WindowFrame(passage, found) if any(found) else None
-        self.own = self._of_window(of_change, found) if self.frame else None
+        changes = (WindowChange.of(passage, window, of_change) for window in self.reader.windows)
+        self.changes = [change for change in changes if change]
 
     @functools.cached_property
     def base(self):
@@ -60,26 +59,24 @@ class WindowedHeat:
 
     def on(self, rows):
         """Function of a tick (number of an equal step) that returns sxx, syy, sxy (columns, rows, 3) Pa on these fine rows."""
-        nodes, places, own = RunNodes(self.passage, np.asarray(rows)), *self._within(rows)
-        run, window = self.base.on(nodes.rows), self.own.on(own) if self.own and own else None
+        nodes = RunNodes(self.passage, np.asarray(rows))
+        run, changes = self.base.on(nodes.rows), [change.on(rows) for change in self.changes]
 
         def stresses(tick):
             out = nodes.refined(run(tick)[None], [self._band(tick)], ACROSS[list(HELD)])[0]
-            if window and tick > self.frame.begin:
-                self.frame.add(out, places, window(tick - self.frame.begin), tick)
+            for add in changes:
+                add(out, tick)
             return out
 
         return stresses
 
     def rows(self, depth, rows):
         """Stresses (rows, ticks, columns, 6) Pa at `depth` (m) on some fine rows."""
-        places, own = self._within(rows)
         between_rows = self._run_rows(depth, rows)
         bands = [self._band(tick) for tick in range(between_rows.shape[1])]
         out = self.nodes.refined_along(np.moveaxis(between_rows, 0, 2), bands)
-        if self.own and own:
-            for n, field in enumerate(np.moveaxis(self.own.rows(depth, own), 0, 2)):
-                self.frame.add(out[self.frame.begin + n], places, field, self.frame.begin + n)
+        for change in self.changes:
+            change.add_rows(out, depth, rows)
         return np.moveaxis(out, 2, 0)
 
     def _band(self, tick):
@@ -92,7 +89,7 @@ class WindowedHeat:
 
         Waves have values between the run's rows, so no interpolation along y is needed.
         """
-        places = np.asarray(rows) / self.reader.window.factor
+        places = np.asarray(rows) / self.reader.factor
         kept, nodes = self.reader.kept_heat, self.nodes
         keys = [(self.passage.surface.name, self.reader.averaged, float(depth), float(place), nodes.front, nodes.x.size)
                 for place in places]
@@ -100,40 +97,72 @@ class WindowedHeat:
             kept |= zip(keys, self.base.rows(depth, places).astype(np.float32))
         return np.stack([kept[key] for key in keys])
 
-    def _within(self, rows):
-        """(places in `rows`, numbers in the window) of the fine rows that lie in the window."""
-        w, rows = self.reader.window, np.asarray(rows)
-        places = np.flatnonzero((rows >= w.row) & (rows < w.row + w.rows))
-        return places, list(rows[places] - w.row)
 
-    def _of_window(self, kind, found):
-        """Thermal stress of the differences `found` of all entries, in the frame of the window."""
-        frame = self.frame
-        ticks = self.passage.ticks[frame.first :]
+class WindowChange:
+    """Thermal stress of the difference that a window of the reader makes.
+
+    frame: its WindowFrame; own: thermal stress in it; arguments and names are those of :class:`WindowedHeat`.
+    """
+
+    @classmethod
+    def of(cls, passage, window, kind):
+        """The WindowChange of a window; None if the window has no entries."""
+        found = [window.difference(n, f"temperature_{passage.surface.name}") for n in range(len(passage.reader))]
+        return cls(passage, window, kind, found) if any(found) else None
+
+    def __init__(self, passage, window, kind, found):
+        frame = self.frame = WindowFrame(passage, window, found)
+        self.extent, ticks = window.extent, passage.ticks[frame.first :]
         rises = between((frame.rise(one, tick) for one, tick in zip(found[frame.first :], ticks)), ticks - frame.begin)
         grid = frame.x, frame.y, 0, frame.x.size
-        return self.passage.heat_of(kind, rises, grid, is_mirrored(self.reader), 0.0, frame.speed)
+        self.own = passage.heat_of(kind, rises, grid, is_mirrored(passage.reader), 0.0, frame.speed)
+
+    def on(self, rows):
+        """Function that adds the stresses sxx, syy, sxy at a tick on these fine rows to an array (columns, rows, 3) Pa."""
+        places, own = self._within(rows)
+        window = self.own.on(own) if own else None
+
+        def add(out, tick):
+            if window and tick > self.frame.begin:
+                self.frame.add(out, places, window(tick - self.frame.begin), tick)
+
+        return add
+
+    def add_rows(self, out, depth, rows):
+        """Add the stresses at a depth (m) on some fine rows to `out` (ticks, columns, rows, 6) Pa."""
+        places, own = self._within(rows)
+        if own:
+            for n, field in enumerate(np.moveaxis(self.own.rows(depth, own), 0, 2)):
+                self.frame.add(out[self.frame.begin + n], places, field, self.frame.begin + n)
+
+    def _within(self, rows):
+        """(places in `rows`, numbers in the window) of the fine rows that lie in the window."""
+        w, rows = self.extent, np.asarray(rows)
+        places = np.flatnonzero((rows >= w.row) & (rows < w.row + w.rows))
+        return places, list(rows[places] - w.row)
 
 
 class WindowFrame:
     """Grid that moves with a window and contains it at every tick (number of an equal step).
 
-    found: for every entry (first fine column, (columns, rows) K) of the window, or None without one. Attributes: `x`, `y` (m);
+    window: one of the windows of the reader. found: for every entry (first fine column, (columns, rows) K) of the window, or
+    None without one. Attributes: `x`, `y` (m);
     `first`, the last entry before the window, and `begin`, its tick; `speed` of the body in this frame, m/s.
     """
 
-    def __init__(self, passage, found):
-        self.passage, reader = passage, passage.reader
+    def __init__(self, passage, window, found):
+        self.passage, reader, columns = passage, passage.reader, window.extent.columns
         self.first = next(n for n, one in enumerate(found) if one is not None) - 1
         self.begin, dx = int(passage.ticks[self.first]), float(reader.x[1] - reader.x[0])
-        self.way = (passage.path[1] - passage.path[0]) / dx / int(passage.ticks[-1])  # columns per tick
+        whole = (passage.path[1] - passage.path[0]) / dx / int(passage.ticks[-1])  # columns per tick of the first feature
+        self.way = window.pace * whole
         self.speed = passage.surface.speed - self.way * dx / passage.tick
         places = [one[0] - self.way * tick for one, tick in zip(found, passage.ticks) if one is not None]
-        trail = int(abs(passage.surface.pace - 1) * self.way * (int(passage.ticks[-1]) - self.begin)) + 1
-        trail = min(trail, reader.window.columns)  # of the heat that the body takes out of the window
+        trail = int(abs(passage.surface.pace - window.pace) * whole * (int(passage.ticks[-1]) - self.begin)) + 1
+        trail = min(trail, columns)  # of the heat that the body takes out of the window
         self.left = min(places) - SIDE - (trail if self.speed < 0 else 0)
-        size = int(np.ceil(max(places) - self.left)) + reader.window.columns + SIDE + (trail if self.speed > 0 else 0)
-        self.x, self.y = np.arange(size) * dx, self._rows(reader)
+        size = int(np.ceil(max(places) - self.left)) + columns + SIDE + (trail if self.speed > 0 else 0)
+        self.x, self.y = np.arange(size) * dx, self._rows(reader, window.extent)
 
     def rise(self, one, tick):
         """Difference of temperatures (columns, rows) K on this grid; one: (first fine column, values) of the window, or
@@ -163,9 +192,9 @@ class WindowFrame:
         return self.left + self.way * tick
 
     @staticmethod
-    def _rows(reader):
-        """y (m) of the rows: those of the window, and at a mirror ROOM times as many."""
-        w, y = reader.window, np.asarray(reader.y)
+    def _rows(reader, w):
+        """y (m) of the rows: those of the window (Extent `w`), and at a mirror ROOM times as many."""
+        y = np.asarray(reader.y)
         if w.rows == 1:
             return y
         rows = w.rows + round((ROOM - 1) * w.rows) * (w.row == 0)

@@ -1,5 +1,6 @@
-"""Reader of a run with its window at all moments of the window, also between the steps of the run."""
+"""Reader of a run with its windows at all moments of the windows, also between the steps of the run."""
 
+import functools
 from dataclasses import replace
 
 import numpy as np
@@ -48,17 +49,28 @@ class BetweenSteps:
 
 
 def every_moment(reader):
-    """The ZoomedReader of the same run and window with all moments of the window, or None if it has none between steps."""
-    zoomed = reader.zoomed
-    if not zoomed.between:
+    """The ZoomedReader of the same run and windows with all moments of the windows, or None if it has none between steps."""
+    places = _common([[at for at, _, _ in one.between] for one in reader.zoomed])
+    if not places.size:
         return None
-    own = [(float(entry), origin, {name: values[n] for name, values in zoomed.fields.items()})
-           for n, (entry, origin) in enumerate(zip(zoomed.entries, zoomed.origins))]
-    own = sorted(own + zoomed.between, key=lambda one: one[0])
-    moments = np.union1d(np.arange(len(reader), dtype=float), [at for at, _, _ in own])
-    names = zoomed.between[0][2]
-    passage = replace(zoomed, entries=[int(n) for n in np.searchsorted(moments, [at for at, _, _ in own])], between=[],
-                      origins=[origin for _, origin, _ in own], fields={name: [one[2][name] for one in own] for name in names})
-    out = ZoomedReader(BetweenSteps(reader.base, moments), passage, reader.refining.mirrored)
+    steps = {entry for one in reader.zoomed for entry in one.entries}
+    moments = np.union1d(np.arange(len(reader), dtype=float), np.concatenate([sorted(steps), places]))
+    passages = [_with_all(one, places, moments) for one in reader.zoomed]
+    out = ZoomedReader(BetweenSteps(reader.base, moments), passages, reader.refining.mirrored)
     out.tables = reader.tables
     return out
+
+
+def _common(lists):
+    """Moments that all windows have: where one takes shorter steps, it does not keep those of all."""
+    return functools.reduce(np.intersect1d, lists, lists[0])
+
+
+def _with_all(passage, places, moments):
+    """The ZoomedPassage with the moments `places` between its entries, which become numbers of `moments`."""
+    own = [(float(entry), origin, {name: values[n] for name, values in passage.fields.items()})
+           for n, (entry, origin) in enumerate(zip(passage.entries, passage.origins))]
+    own = sorted([*own, *(one for one in passage.between if one[0] in places)], key=lambda one: one[0])
+    names = passage.between[0][2]
+    return replace(passage, entries=[int(n) for n in np.searchsorted(moments, [at for at, _, _ in own])], between=[],
+                   origins=[origin for _, origin, _ in own], fields={name: [one[2][name] for one in own] for name in names})

@@ -7,7 +7,7 @@ import numpy as np
 
 from tehl_taichi.pressure.grids import Grids
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.scene.zoom_room import extent
+from tehl_taichi.scene.zoom_room import changed, extent, followed
 
 # width of the border where the pressure of the run is given: cells of the run, and at least so many of the window. Three paths
 # of oil begin there, with the nodes of their interpolation. Window of factor 1 on 128 columns (one dimension, pure rolling),
@@ -20,6 +20,12 @@ MORE = 1  # cells of the run inside this border, over which the window's pressur
 BEYOND, BEYOND_FROZEN = 0.05, 0.2
 HALF = 0.5  # weight of the core from which a node belongs to the window
 COLUMNS, ROWS = 32, 8  # the window has a multiple of so many cells, so that its sizes and coarse levels are few
+
+
+def windows_of(scene, factor):
+    """The windows of this factor of a scene: around the features of the first feature's surface, and of the other one if it has
+    a window of its own."""
+    return [Window.of(scene, factor, surface) for surface in followed(scene)]
 
 
 def given(factor):
@@ -38,8 +44,9 @@ class Window:
     """Position and size of a window.
 
     factor: fine cells per cell of the run. nx, ny: cells of the window (ny = 0: one row). all_nx, all_ny: cells of the whole
-    fine grid. row: its first row. back: cells from its first column to the centre of the first feature. x_min, y_min, dx, dy:
-    of the fine grid, a.
+    fine grid. row: its first row. back: cells from its first column to the origin of its surface (of the surface with the first
+    feature, the centre of that feature). x_min, y_min, dx, dy: of the fine grid, a. pace: speed of its surface relative to that
+    of the first feature. middle: cells from its first column to the middle of its features.
     """
 
     factor: int
@@ -53,22 +60,28 @@ class Window:
     y_min: float
     dx: float
     dy: float
+    pace: float = 1.0
+    middle: float = 0.0
 
     @classmethod
-    def of(cls, scene, factor):
-        """The window of a scene around the features of the surface that carries the first feature."""
+    def of(cls, scene, factor, surface=None):
+        """The window of a scene around the features of a MovingSurface, by default that of the first feature."""
+        surface = surface or scene.reference
         grid = Grids(scene.grid, Scales.of(scene), scene.grid.nx, scene.rows, not scene.symmetric)
-        low, high = _along(scene, _blend(factor) * grid.dx / factor + (BEYOND_FROZEN if scene.isothermal else BEYOND))
+        beyond = BEYOND_FROZEN if scene.isothermal else BEYOND
+        low, high = _along(scene, surface, _blend(factor) * grid.dx / factor + beyond)
         dx, all_nx = grid.dx / factor, grid.nx * factor
         nx = min(_multiple((high - low) / dx, COLUMNS), all_nx // COLUMNS * COLUMNS)
         spare = nx - (high - low) / dx
-        row, ny = _rows(scene, grid, factor) if grid.ny else (0, 0)
-        return cls(factor, nx, ny, all_nx, grid.ny * factor, row, round(-low / dx + spare / 2),
-                   float(grid.X[0]), float(grid.Y[0]), dx, grid.dy / factor)
+        row, ny = _rows(scene, surface, grid, factor) if grid.ny else (0, 0)
+        back = round(-low / dx + spare / 2)
+        return cls(factor, nx, ny, all_nx, grid.ny * factor, row, back,
+                   float(grid.X[0]), float(grid.Y[0]), dx, grid.dy / factor, surface.pace,
+                   back + 0.5 * sum(extent(scene, "x", surface)) / dx)
 
     def origin(self, X):
         """First fine column of the window with the first feature at X (a)."""
-        column = round((X - self.x_min) / self.dx) - self.back
+        column = round((self.pace * X - self.x_min) / self.dx) - self.back
         return min(max(column, 0), self.all_nx - self.nx)
 
     def columns(self, origin):
@@ -112,21 +125,17 @@ def _multiple(cells, of):
     return max(1, math.ceil(cells / of - 1e-9)) * of
 
 
-def _along(scene, beyond):
-    """(from, to) of the window along x, a from the centre of the first feature.
-
-    It contains the oil that has passed over a feature, which is at most 2 a ahead of it or behind it.
-    """
+def _along(scene, surface, beyond):
+    """(from, to) of the window along x, a from the origin of its surface."""
     if width := scene.zoom.width_x:
         return -width / 2, width / 2
-    lead = 2.0 * (scene.operation.u_m / scene.reference.speed - 1.0)
-    low, high = extent(scene, "x")
-    return low + min(lead, 0.0) - beyond, high + max(lead, 0.0) + beyond
+    low, high = changed(scene, surface)
+    return low - beyond, high + beyond
 
 
-def _rows(scene, grid, factor):
+def _rows(scene, surface, grid, factor):
     """(first fine row, number of fine cells along y)."""
-    dy, (low, high) = grid.dy / factor, extent(scene, "y")
+    dy, (low, high) = grid.dy / factor, extent(scene, "y", surface)
     beyond = _blend(factor) * dy + BEYOND
     low, high = low - beyond, high + beyond
     if width := scene.zoom.width_y:

@@ -65,14 +65,6 @@ class WindowHeat:
         T = self.film.T
         return {"temperature_mid": T[len(T) // 2], "temperature_a": T[0], "temperature_b": T[-1]}
 
-    def inside(self):
-        """{name: highest temperature, deg C} of the newest state, at the nodes that belong to the window."""
-        return _highest(self.film.T[:, self.window.inside(self.origin)])
-
-    def outside(self, T):
-        """{name: highest temperature, deg C} of the run's temperatures T at the nodes that do not belong to the window."""
-        return _highest(T[:, self.window.outside(self.origin)])
-
     def _fine(self, T, origin):
         return self.refining(origin, self.window.nx + 1).smooth(T, 4)
 
@@ -92,6 +84,6 @@ class WindowHeat:
         return out
 
 
-def _highest(T):
+def highest(T):
     """{name: highest temperature} of T (nodes across the film, ...), deg C."""
     return {"film_max_C": largest(T), "surface_a_max_C": T[0].max(), "surface_b_max_C": T[-1].max()}

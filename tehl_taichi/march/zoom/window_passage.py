@@ -8,9 +8,11 @@ import numpy as np
 
 from tehl_taichi.march.coupling import carefully, exchange, rounds
 from tehl_taichi.march.substeps import Substeps
+from tehl_taichi.march.zoom import overlap
 from tehl_taichi.march.zoom.outside_gap import OutsideGap
+from tehl_taichi.march.zoom.overlap import PlacedWindow
 from tehl_taichi.march.zoom.two_frames import TwoFrames
-from tehl_taichi.march.zoom.window_heat import WindowHeat
+from tehl_taichi.march.zoom.window_heat import WindowHeat, highest
 from tehl_taichi.march.zoom.window_levels import WindowLevels
 from tehl_taichi.march.zoom.zoomed_reader import EXTREMES
 from tehl_taichi.pressure import fields
@@ -28,11 +30,12 @@ PAD = 4  # cells of the run around the window whose history is kept: more than t
 class WindowPassage:
     """The passage of a window through a run.
 
-    base: :class:`tehl_taichi.march.zoom.base_states.BaseStates` of the run; window: its Window.
+    base: :class:`tehl_taichi.march.zoom.base_states.BaseStates` of the run; window: its Window; others: the other Windows of
+    the run, where they overlap it.
     """
 
-    def __init__(self, base, window):
-        self.scene, self.window, self.base = base.scene, window, base
+    def __init__(self, base, window, others=()):
+        self.scene, self.window, self.base, self.others = base.scene, window, base, others
         self.levels = WindowLevels(self.scene, window)
         self.outside = OutsideGap(self.base, self.levels)
         self.given = self.levels.get(fields.MASK) == 0
@@ -126,11 +129,16 @@ class WindowPassage:
     def numbers(self, step):
         """{name: number} over all moments since the last step of the run.
 
-        Largest pressure and smallest film of the window alone; highest temperatures of the window and of the run outside of it.
+        Largest pressure and smallest film of the window alone; highest temperatures of the window and of the run outside of all
+        windows.
         """
         found = {name: extreme([one[name] for one in self.extremes]) for name, (_, extreme) in EXTREMES.items()}
-        outside = self.heat.outside(self.base.at(step).T) if self.heat else {}
+        outside = self._outside(self.base.at(step)) if self.heat else {}
         return {**found, **{name: max(there, *(one[name] for one in self.extremes)) for name, there in outside.items()}}
+
+    def _outside(self, state):
+        """{name: highest temperature, deg C} of the run's `state` outside of all windows."""
+        return highest(state.T[:, overlap.outside(self._placed(state))])
 
     def _put(self, state):
         """Write the gap of the run's `state` into the tables; return the window's first fine column and the run's pressure
@@ -151,14 +159,19 @@ class WindowPassage:
         self.storage.begin(dT)
 
     def _at(self, state):
-        """Place of the first feature in fine columns from X = 0."""
-        return state.X / self.window.dx
+        """Place of the origin of the surface in fine columns from X = 0."""
+        return self.window.pace * state.X / self.window.dx
 
-    def _extremes(self, origin):
+    def _placed(self, state):
+        """PlacedWindows of this window and of the others at a state of the run."""
+        return [PlacedWindow.of(window, state.X) for window in (self.window, *self.others)]
+
+    def _extremes(self, state):
         """{name: number} of the newest state, at the nodes that belong to the window."""
-        v, s, inside = self.levels, self.levels.scales, self.window.inside(origin)
+        own, *others = self._placed(state)
+        v, s, inside = self.levels, self.levels.scales, overlap.inside(own, others)
         found = {"p_max_Pa": v.get(fields.P)[inside].max() * s.p_H, "h_min_m": v.get(fields.H)[inside].min() * s.h}
-        return found | (self.heat.inside() if self.heat else {})
+        return found | (highest(self.film.T[:, inside]) if self.heat else {})
 
     def _accept(self, state, origin, ring, dT):
         """Accept the solved state as the newest one."""
@@ -169,7 +182,7 @@ class WindowPassage:
         self.storage.accept(dT)
         if self.heat:
             self.heat.accept(origin, self._at(state))
-        self.extremes.append(self._extremes(origin))
+        self.extremes.append(self._extremes(state))
 
     def _kept(self, state, origin, mass=None):
         """(first fine column, rho H) of a state in and around the window.

@@ -1,4 +1,4 @@
-"""The whole passage of a window through the run of a scene: its fields at every step, and why it ended."""
+"""The whole passage of windows through the run of a scene: their fields at every step, and why they ended."""
 
 import itertools
 from dataclasses import dataclass, field
@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tehl_taichi.march.zoom.base_states import BaseStates
-from tehl_taichi.march.zoom.window import Window
+from tehl_taichi.march.zoom.window import Window, windows_of
 from tehl_taichi.march.zoom.window_passage import WindowPassage
+from tehl_taichi.scene.zoom_room import followed
 from tehl_taichi.values.quantity import AUTO
 
 LEAD = 0.4  # a: distance of the feature that a window begins before it is needed, so that all oil in it is its own by then
@@ -34,6 +35,13 @@ class ZoomedPassage:
     cycles: int = 0
     attempts: int = 0
 
+    def cut(self, count):
+        """Keep the results at the first `count` entries."""
+        end = self.entries[count - 1] if count else 0
+        for values in (self.entries, self.origins, *self.fields.values(), *self.numbers.values()):
+            del values[count:]
+        self.between = [one for one in self.between if one[0] < end]
+
     def add(self, entry, origin, values, numbers):
         """Add the results at one entry; values: {name: (nx+1, ny+1)}."""
         self.entries.append(entry)
@@ -51,36 +59,43 @@ class ZoomedPassage:
 
 
 def passages(scene, reader, factors, notify=lambda done, total: None, until=None):
-    """Move windows of these factors through the run of a scene; return a list of their ZoomedPassages.
+    """Move windows of these factors through the run of a scene; return for each factor a list of the ZoomedPassages of its
+    windows.
 
     reader: every step of the run, the steady start first. until: position (a) of the feature up to which the run resolves the
     pressure; None: windows begin with the passage. notify: called with (done, total) steps of the run. A window that does
-    not converge ends; the others continue.
+    not converge ends, with the others of its factor; those of other factors continue.
     """
     base = BaseStates(scene, reader)
     first, last = steps_of(scene, base, until)
     base.skip_to(first)
     out, done = {}, itertools.count(1)
-    groups = _groups(sorted(factors, reverse=True), base.holds(first))
+    groups = _groups([place for factor in sorted(factors, reverse=True) for place in _places(scene, factor)], base.holds(first))
 
     def notify_one():
         notify(next(done), len(groups) * (last - first))
 
     for group in groups:
         out |= zip(group, _marched(base, group, first, last, notify_one))
-    return [out[factor] for factor in factors]
+    return [_together([found for (own, _), found in sorted(out.items()) if own == factor]) for factor in factors]
 
 
-def _groups(factors, repeatable):
-    """Lists of the factors whose windows move together: each by itself if the states of the run can be read several times, so
-    that it uses the tables and compiled kernels of the one before (gear with temperatures, factors 4 and 2: 4.5 s of processor
-    time for kernels)."""
-    return [[factor] for factor in factors] if repeatable else [factors]
+def _places(scene, factor):
+    """[(factor, number of the window)] of the windows of a factor."""
+    return [(factor, n) for n in range(len(followed(scene)))]
 
 
-def _marched(base, factors, first, last, notify):
-    """The ZoomedPassages of windows that move together from step `first` of the run to `last`; notify(): called at each."""
-    marches = [WindowPassage(base, Window.of(base.scene, factor)) for factor in factors]
+def _groups(places, repeatable):
+    """Lists of the windows that move together: each by itself if the states of the run can be read several times, so that it
+    uses the tables and compiled kernels of the one before (gear with temperatures, factors 4 and 2: 4.5 s of processor time for
+    kernels)."""
+    return [[place] for place in places] if repeatable else [places]
+
+
+def _marched(base, places, first, last, notify):
+    """The ZoomedPassages of windows that move together from step `first` of the run to `last`; places: as of :func:`_places`;
+    notify(): called at each step."""
+    marches = [_march(base, *place) for place in places]
     out = [ZoomedPassage(march.window) for march in marches]
     for march in marches:
         march.begin(first)
@@ -90,6 +105,20 @@ def _marched(base, factors, first, last, notify):
                 _advance(march, found, step)
         notify()
     return out
+
+
+def _march(base, factor, n):
+    """The WindowPassage of window n of a factor."""
+    windows = windows_of(base.scene, factor)
+    return WindowPassage(base, windows[n], windows[:n] + windows[n + 1 :])
+
+
+def _together(found):
+    """The ZoomedPassages of the windows of a factor, all up to the step at which the first one ended."""
+    last = min(len(one.entries) for one in found)
+    for one in found:
+        one.cut(last)
+    return found
 
 
 def _advance(march, found, step):
@@ -107,6 +136,7 @@ def steps_of(scene, base, until=None):
     """(first, last) step of the run with a window, by zoom.from_x and to_x; until: see :func:`passages`."""
     at, begin = np.array([base.position(n) for n in range(base.last + 1)]), scene.zoom.from_x
     if begin == AUTO:
-        begin = -np.inf if until is None else until - LEAD
+        slowest = min(surface.pace for surface in followed(scene))
+        begin = -np.inf if until is None else until - LEAD / slowest
     inside = np.flatnonzero((at >= begin) & (at <= scene.zoom.to_x))
     return (int(inside[0]), int(inside[-1])) if inside.size else (0, 0)

@@ -151,11 +151,11 @@ def _zoom_rows(zoom):
     """Rows of the window, and of the largest numbers without it."""
     if not zoom:
         return []
-    wide, high = zoom["window_a"]
-    size = f"{wide:.2g} x {high:.2g} a" if high else f"{wide:.2g} a"
+    windows = zoom.get("windows", [zoom])
+    sizes = [f"{wide:.2g} x {high:.2g} a" if high else f"{wide:.2g} a" for wide, high in (one["window_a"] for one in windows)]
     base = zoom["base"]
     film = f" / {base['film_max_C']:.4g} °C" if "film_max_C" in base else ""
-    return [SummaryRow("zoom window", f"{zoom['factor']} times as fine, {size}"),
+    return [SummaryRow(f"zoom window{'s' * bool(sizes[1:])}", f"{zoom['factor']} times as fine, {' and '.join(sizes)}"),
             SummaryRow(f"p_max / h_min{' / hottest film' if film else ''} without the zoom",
                        f"{base['p_max_Pa'] / 1e9:.4g} GPa / {base['h_min_m'] * 1e6:.3g} um{film}")]
 

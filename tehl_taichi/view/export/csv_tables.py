@@ -5,7 +5,7 @@ import numpy as np
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.escape import cell
 from tehl_taichi.view.export.file_format import Format, flat_fields, unit
-from tehl_taichi.view.zoom_window import FIRST, ZoomWindow
+from tehl_taichi.view.zoom_window import ZoomWindow
 
 DIGITS = "%.10g"  # single precision has nine
 FRAME_X, FRAME_Y, DEPTH, ROW_DEPTH = "feature_frame_x", "feature_frame_y", "fatigue_depth", "under_row_depth"
@@ -26,11 +26,12 @@ def _tables(reader, places):
     """Generator of (name, {title: column}) of every table."""
     yield "series", series(reader)
     yield "centreline_steady", centreline(reader, 0)
-    window = ZoomWindow.of(reader)
+    windows = ZoomWindow.all_of(reader)
     for at, entry in places.at.items():
         yield f"centreline_at_{at:g}a", centreline(reader, entry)
-        if window and entry in window and window.row(0.0) is not None:
-            yield f"centreline_zoom_at_{at:g}a", window_centreline(window, entry)
+        for window in windows:
+            if entry in window and window.row(0.0) is not None:
+                yield f"centreline_{window.first}at_{at:g}a", window_centreline(window, entry)
     for x, y in places.points:
         yield f"point_{x * 1e6:g}um_{y * 1e6:g}um", history(reader, x, y)
     for dims, name in FOUND.items():
@@ -68,7 +69,7 @@ def window_centreline(window, n):
     """Table of every field of the zoom window along y = 0 at entry n of the run, and its moment."""
     reader, row, x = window.store, window.row(0.0), window.columns(n)
     moment = {_title(reader, name): np.full(x.size, reader.scalar(name)[n]) for name in ("time", "feature_x")}
-    fields = {f"{name} [{unit(reader, FIRST + name)}]": values[:, row] for name, values in window.fields(n).items()}
+    fields = {f"{name} [{unit(reader, window.first + name)}]": values[:, row] for name, values in window.fields(n).items()}
     return {"x [m]": x, **fields, **moment}
 
 

@@ -11,7 +11,7 @@ import zlib
 import numpy as np
 
 from tehl_taichi.view.export.file_format import Format, flat_fields, unit
-from tehl_taichi.view.zoom_window import FIRST, ZoomWindow
+from tehl_taichi.view.zoom_window import ZoomWindow
 
 TYPES = {"f4": "Float32", "f8": "Float64", "u1": "UInt8"}
 TOP = '<?xml version="1.0"?>\n<!-- tehl_taichi -->\n'  # by which --force knows the file
@@ -19,9 +19,7 @@ HEAD = 'byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCo
 
 
 def write(reader, folder, places):
-    """Write an image for each entry, the .pvd with their times (s), fatigue.vti, and the files of a zoom window if there is
-    one.
-    """
+    """Write an image for each entry, the .pvd with their times (s), fatigue.vti, and the files of zoom windows."""
     names = [f"step_{step:06d}.vti" for step in reader.scalar("step")]
     for n, name in enumerate(names):
         moment = {_named(reader, key): reader.scalar(key)[n] for key in ("feature_x", "p_max_Pa", "h_min_m")}
@@ -32,17 +30,17 @@ def write(reader, folder, places):
         fields = {_named(reader, name): reader.map(name) for name in maps}
         (folder / "fatigue.vti").write_text(image(reader.map(found[0]), reader.map(found[1]), fields, {}))
     (folder / "passage.pvd").write_text(collection(zip(reader.time, names)))
-    if window := ZoomWindow.of(reader):
+    for window in ZoomWindow.all_of(reader):
         _write_window(reader, window, folder)
 
 
 def _write_window(reader, window, folder):
-    """Write an image of the zoom window for each of its entries, and zoom.pvd."""
-    names = [f"zoom_{int(reader.scalar('step')[n]):06d}.vti" for n in window.entries]
+    """Write an image of the zoom window for each of its entries, and zoom.pvd (zoom2 for the second window)."""
+    names = [f"{window.first}{int(reader.scalar('step')[n]):06d}.vti" for n in window.entries]
     for n, name in zip(window.entries, names):
-        fields = {_named(reader, FIRST + key): values for key, values in window.fields(n).items()}
+        fields = {_named(reader, window.first + key): values for key, values in window.fields(n).items()}
         (folder / name).write_text(image(window.columns(n), window.y, fields, {"TimeValue": reader.time[n]}))
-    (folder / "zoom.pvd").write_text(collection(zip(reader.time[window.entries], names)))
+    (folder / f"{window.first.removesuffix('_')}.pvd").write_text(collection(zip(reader.time[window.entries], names)))
 
 
 def collection(times):
@@ -80,4 +78,4 @@ def _named(reader, name):
 
 
 FORMAT = Format(name="vtk", says="a folder with passage.pvd, which ParaView opens as a time series", ending="-vtk",
-                parts=r"(passage|zoom)\.pvd|((step|zoom)_\d+|fatigue)\.vti", write=write)
+                parts=r"(passage|zoom2?)\.pvd|((step|zoom2?)_\d+|fatigue)\.vti", write=write)

@@ -30,7 +30,7 @@ class Frames:
 
     def __init__(self, page, moments, entries, shown):
         self.page, self.moments, self.store, self.entries, self.shown = page, moments, moments.store, entries, shown
-        cold, self.finer = self.store.scene.isothermal, ZoomWindow.of(self.store)
+        cold, self.finer = self.store.scene.isothermal, ZoomWindow.all_of(self.store)
         self.panels = {name: panel for name, panel in PANELS.items() if not (cold and name == "temperature")}
         self.fields = [field for _, _, fields in self.panels.values() for field in fields]
         self.figure, self.axes = self._laid_out()
@@ -38,7 +38,7 @@ class Frames:
         self.lines = [line for name in self.panels for line in self._lines(name)]
         self.places = [self.axes[name].axvline(0.0, color=palette.GREY, ls=":", animated=True) for name in self.panels]
         self.map = self._map() if shown else None
-        self.window = self.finer and FrameWindow(self, self.finer)
+        self.windows = [FrameWindow(self, window) for window in self.finer]
         self._freeze()
 
     def _laid_out(self):
@@ -59,9 +59,9 @@ class Frames:
         """({field: smallest}, {field: largest}) of all entries; of the film inside the contact."""
         ends: dict[str, list[float]] = {name: [] for name in self.fields}
         for n in self.entries:
-            finer = self.finer.fields(n, self.fields) if self.finer and n in self.finer else {}
+            finer = [window.fields(n, self.fields) for window in self.finer if n in window]
             for name, values in self.store.fields(n, self.fields).items():
-                parts = [values, finer[name]] if name in finer else [values]
+                parts = [values, *(one[name] for one in finer if name in one)]
                 ends[name] += [float(of(part)) for part in parts for of in (np.min, np.max)]
         top = {name: max(values) for name, values in ends.items()} | {"film": self.moments.film_top(self.entries)}
         return {name: min(values) for name, values in ends.items()}, top
@@ -121,8 +121,8 @@ class Frames:
         if self.map:
             image, field, factor = self.map
             self._draw(image, data=mirrored(self.store.y, f[field] * factor)[1].T)
-        if self.window:
-            self.window.draw(n)
+        for window in self.windows:
+            window.draw(n)
         self.title.set_text(self._says(n))
         self.figure.draw_artist(self.title)
         return np.array(self.canvas.buffer_rgba())[..., :3]

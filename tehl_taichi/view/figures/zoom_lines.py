@@ -1,4 +1,4 @@
-"""Pressure and film of a zoom window along a row, drawn over those of its run."""
+"""Pressure and film of the zoom windows along a row, drawn over those of the run."""
 
 from tehl_taichi.view.zoom_window import ZoomWindow
 
@@ -6,17 +6,17 @@ THICK, NODES = 1.6, 2.0  # points: width of the lines, size of a node
 
 
 class ZoomLines:
-    """Zoom window of the run in a store, along the given row."""
+    """Zoom windows of the run in a store, along the given row."""
 
     def __init__(self, store, row):
-        self.window = ZoomWindow.of(store)
-        self.line = self.window and self.window.row(store.y[row])
+        rows = [(window, window.row(store.y[row])) for window in ZoomWindow.all_of(store)]
+        self.lines = [(window, line) for window, line in rows if line is not None]
 
     def draw(self, axes, entry, a, colour):
         """Draw an entry of the run into the axes of pressure (GPa) and film (µm) over x/a. Returns whether it has a window."""
-        if self.line is None or entry not in self.window:
-            return False
-        x, found = self.window.columns(entry) / a, self.window.fields(entry, ("pressure", "film"))
-        for ax, values in zip(axes, (found["pressure"] / 1e9, found["film"] * 1e6)):
-            ax.plot(x, values[:, self.line], color=colour, lw=THICK, marker=".", ms=NODES, zorder=4)
-        return True
+        there = [(window, line) for window, line in self.lines if entry in window]
+        for window, row in there:
+            x, found = window.columns(entry) / a, window.fields(entry, ("pressure", "film"))
+            for ax, values in zip(axes, (found["pressure"] / 1e9, found["film"] * 1e6)):
+                ax.plot(x, values[:, row], color=colour, lw=THICK, marker=".", ms=NODES, zorder=4)
+        return bool(there)

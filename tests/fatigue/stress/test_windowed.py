@@ -1,5 +1,7 @@
 """Stresses of a run with a window, against those of the same loads and temperatures on the fine grid of the whole contact."""
 
+import dataclasses
+import itertools
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,7 +17,7 @@ from tehl_taichi.fatigue.stress import held_heat, windowed
 from tehl_taichi.fatigue.stress.averaging import AveragedReader, averaged_reader
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
-from tehl_taichi.march.zoom.window import Window
+from tehl_taichi.march.zoom.window import windows_of
 from tehl_taichi.march.zoom.zoomed_passage import ZoomedPassage
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
 from tehl_taichi.scene.scales import Scales
@@ -23,6 +25,9 @@ from tehl_taichi.scene.scales import Scales
 GEAR = tehl.scene("gear").replace(srr=-0.2, **{"grid.nx": 64, "grid.ny": 16, "time.x_end": 0.0})
 LINE = GEAR.replace(**{"feature.length": float("inf")})
 OFF_AXIS = GEAR.replace(**{"feature.y": 1e-4, "grid.nx": 64, "grid.ny": 24})
+# with a second feature on body b, near the first or beside it: their windows overlap
+NEAR, BESIDE = (dataclasses.replace(GEAR, features=(*GEAR.features, dataclasses.replace(GEAR.features[0], surface="b", x=x)))
+                for x in (5e-5, 2.5e-4))
 FACTOR, MOST = 2, 1.9e9  # Pa
 NAMES = ("pressure", "traction_x_a", "traction_x_b", "traction_y_a", "traction_y_b", "temperature_a", "temperature_b")
 
@@ -50,11 +55,17 @@ class Loads:
     def _of(self, n):
         a, feature = Scales.of(self.scene).a, self.scene.features[0]
         x, y = self.x[:, None], self.y[None, :] - (0.0 if feature.transverse else feature.y)
-        across = 1.0 if feature.transverse else np.exp(-((y / (0.15 * a)) ** 2))
         smooth = np.maximum(1 - (x / a) ** 2, 0.0) ** 2 * np.exp(-((self.y[None, :] / (0.9 * a)) ** 8))
-        wide = np.exp(-(((x - self.feature_x(n)) / (0.15 * a)) ** 2)) * across
-        narrow = np.exp(-(((x - self.feature_x(n) - 0.02 * a) / (0.08 * a)) ** 2)) * across if self.sharp else 0.0
-        return smooth, wide + narrow, np.sign(y) * np.abs(y) / a if self.y.size > 1 else 0.0
+        bumps = (self._bump(x - surface.pace * self.feature_x(n) - one.x, 0.0 if one.transverse else self.y - one.y)
+                 for surface in self.scene.surfaces for one in surface.features)
+        return smooth, sum(bumps), np.sign(y) * np.abs(y) / a if self.y.size > 1 else 0.0
+
+    def _bump(self, x, y):
+        """At places (m) from the middle of a feature."""
+        a = Scales.of(self.scene).a
+        across = np.exp(-((y / (0.15 * a)) ** 2))
+        narrow = np.exp(-(((x - 0.02 * a) / (0.08 * a)) ** 2)) * across if self.sharp else 0.0
+        return np.exp(-((x / (0.15 * a)) ** 2)) * across + narrow
 
     def fields(self, n, names):
         smooth, bump, side = self._of(n)
@@ -80,26 +91,25 @@ class Whole:
 
 def zoomed(scene, factor=FACTOR, since=1, between=False):
     """The ZoomedReader of these loads with a window from entry `since` on; between: also at moments between the entries."""
-    s, w = Scales.of(scene), Window.of(scene, factor)
-    grid = scene.grid
+    s, grid = Scales.of(scene), scene.grid
     x = np.linspace(grid.x_min, grid.x_max, grid.nx + 1) * s.a
     half = np.linspace(0, grid.y_max, grid.ny + 1) * s.b
     y = np.zeros(1) if not scene.rows else half if scene.symmetric else np.concatenate([-half[:0:-1], half])
     run = Loads(scene, x, y, False)
     fine = Loads(scene, *(np.interp(np.arange((p.size - 1) * factor + 1) / factor, np.arange(p.size), p) for p in (x, y)), True)
-    found = ZoomedPassage(w)
 
-    def inside(n):
+    def inside(w, n):
         origin = w.origin(run.feature_x(n) / s.a)
         part = np.ix_(np.arange(origin, origin + w.nx + 1), np.arange(w.row, w.row + w.ny + 1))
         return origin, {name: field[part] for name, field in fine.fields(n, (*NAMES, "film")).items()}
 
-    for n in range(since, len(run)):
+    passages = [ZoomedPassage(w) for w in windows_of(scene, factor)]
+    for found, n in itertools.product(passages, range(since, len(run))):
         if between and n > since:
-            found.between += [(at, *inside(at)) for at in n - 1 + np.arange(1, factor) / factor]
-        origin, values = inside(n)
+            found.between += [(at, *inside(found.window, at)) for at in n - 1 + np.arange(1, factor) / factor]
+        origin, values = inside(found.window, n)
         found.add(n, origin, values, {"p_max_Pa": values["pressure"].max(), "h_min_m": values["film"].min()})
-    return ZoomedReader(run, found, scene.symmetric)
+    return ZoomedReader(run, passages, scene.symmetric)
 
 
 def histories(scene, reader, surface, box=None):
@@ -123,7 +133,8 @@ def pairs(scene, reader, whole, surface):
     return [(one[..., own, :], whole_one[..., same, :]) for one, whole_one in zip(found, there)]
 
 
-@pytest.mark.parametrize("scene", [GEAR, LINE, OFF_AXIS], ids=["half domain", "line", "off the axis"])
+@pytest.mark.parametrize("scene", [GEAR, LINE, OFF_AXIS, NEAR, BESIDE],
+                         ids=["half domain", "line", "off the axis", "near", "beside"])
 @pytest.mark.parametrize("surface", ["a", "b"])
 def test_stresses_are_those_of_the_fine_grid_everywhere(scene, surface):
     reader = zoomed(scene)
@@ -148,7 +159,7 @@ def test_the_heat_of_a_window_is_that_of_the_fine_grid():
     scene = GEAR.replace(**{"fatigue.shear": False, "time.x_end": 0.01, "grid.nx": 128})
     reader = zoomed(scene, 2, since=8)
     for field in ("pressure", "traction_x_a"):
-        for values in reader.zoomed.fields[field]:
+        for values in reader.zoomed[0].fields[field]:
             values *= 0
     for surface in "ab":
         without = scene.replace(**{"fatigue.thermal_stress": False})

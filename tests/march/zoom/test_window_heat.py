@@ -1,5 +1,7 @@
 """Temperatures of a window."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -17,7 +19,7 @@ def zoomed(factor, **changes):
     """(run, its passage with a window of a factor)."""
     scene = LINE.replace(**changes)
     run = Snapshots(tehl.march(scene))
-    return run, passages(scene, run, [factor])[0]
+    return run, passages(scene, run, [factor])[0][0]
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +41,7 @@ def test_the_hottest_place_is_that_of_the_window_or_of_the_run(as_coarse):
     run, found = as_coarse
     for name, within in (("film_max_C", 0.5), ("surface_a_max_C", 0.2), ("surface_b_max_C", 0.2)):
         assert np.abs(np.array(found.numbers[name]) - run.scalar(name)[found.entries]).max() < within
-        assert np.array_equal(ZoomedReader(run, found, True).scalar(name)[found.entries], found.numbers[name])
+        assert np.array_equal(ZoomedReader(run, [found], True).scalar(name)[found.entries], found.numbers[name])
 
 
 def test_a_feature_of_b_at_the_opposite_slip_has_the_same_temperatures(as_coarse):
@@ -50,6 +52,23 @@ def test_a_feature_of_b_at_the_opposite_slip_has_the_same_temperatures(as_coarse
             assert np.abs(one - two).max() < 2e-3 * np.abs(one).max()
 
 
+def test_windows_of_both_bodies_give_the_fields_of_the_run():
+    """Each moves at another speed through the heat of the bodies."""
+    first = LINE.features[0]
+    scene = dataclasses.replace(LINE, features=(first, dataclasses.replace(first, surface="b", height=-1e-6, x=-1e-4)))
+    scene = scene.replace(srr=0.3, **{"grid.nx": 128, "time.x_end": -0.8})
+    run = Snapshots(tehl.march(scene))
+    found, = passages(scene, run, [1])
+    assert len(found) == 2 and found[0].origins != found[1].origins
+    for one in found:
+        for entry, origin in zip(one.entries, one.origins):
+            for name, within in (("pressure", 2e6), ("temperature_mid", 0.5), ("temperature_a", 0.2), ("temperature_b", 0.2)):
+                own = run.items[entry].fields[name][origin : origin + one.window.nx + 1]
+                assert np.abs(one.fields[name][one.entries.index(entry)] - own).max() < within, (entry, name)
+    reader = ZoomedReader(run, found, True)
+    assert np.abs(reader.scalar("film_max_C") - run.scalar("film_max_C")).max() < 0.5
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("srr, feature", [(-0.12, 1.5e-6), (0.12, 1.5e-6), (0.12, -1.5e-6)])
 def test_a_window_four_times_as_fine_gives_what_a_run_four_times_as_fine_does(srr, feature):
@@ -58,7 +77,7 @@ def test_a_window_four_times_as_fine_gives_what_a_run_four_times_as_fine_does(sr
     run, found = zoomed(4, **changes)
     four = {**changes, "grid.nx": 512}
     fine = [Snapshots(tehl.march(LINE.replace(**{**four, "time.courant": courant}))) for courant in (1.0, 0.75)]
-    reader = ZoomedReader(run, found, True)
+    reader = ZoomedReader(run, [found], True)
     for name in ("p_max_Pa", "film_max_C", "h_min_m"):
         extreme = np.min if name == "h_min_m" else np.max
         now, *there = (extreme(one.scalar(name)[1:]) for one in (reader, *fine))

@@ -40,7 +40,7 @@ def runs():
 
 def passage(scene, reader, factor, *notify):
     """Of one window."""
-    return passages(scene, reader, [factor], *notify)[0]
+    return passages(scene, reader, [factor], *notify)[0][0]
 
 
 @pytest.mark.parametrize("factor, within", [(1, 1e-12), (2, 3e-9)])
@@ -70,7 +70,7 @@ def test_a_window_as_coarse_as_the_run_gives_its_pressures(runs, srr):
 @pytest.mark.parametrize("srr, within", [(0.0, 0.003), (-0.12, 0.003)])
 def test_a_window_twice_as_fine_gives_what_a_run_twice_as_fine_does(runs, srr, within):
     (scene, reader), (_, fine) = runs(srr), runs(srr, columns=256)
-    zoomed = ZoomedReader(reader, passage(scene, reader, 2), True)
+    zoomed = ZoomedReader(reader, [passage(scene, reader, 2)], True)
     now, there, before = (one.scalar("p_max_Pa")[1:].max() for one in (zoomed, fine, reader))
     assert abs(now - there) < within * there and abs(now - there) < 0.4 * abs(before - there) + 1e-4 * there
     entry = int(np.argmax(zoomed.scalar("p_max_Pa")))
@@ -113,7 +113,7 @@ def sunk():
 
 def test_a_window_has_the_surfaces_after_run_in(runs, sunk):
     (scene, reader), (_, fine) = sunk
-    one, zoomed = passage(scene, reader, 1), ZoomedReader(reader, passage(scene, reader, 2), True)
+    one, zoomed = passage(scene, reader, 1), ZoomedReader(reader, [passage(scene, reader, 2)], True)
     for entry, origin, p in zip(one.entries, one.origins, one.fields["pressure"]):
         own = reader.items[entry].fields["pressure"][origin : origin + one.window.nx + 1]
         assert np.abs(p - own).max() < 1e-4 * 1.93e9
@@ -194,10 +194,10 @@ def test_windows_that_move_one_after_the_other_are_those_that_move_together(runs
     """In tables and kernels of the one before."""
     seen = []
     scene, reader = runs(-0.12)
-    after = passages(scene, reader, [1, 2], lambda *part: seen.append(part))
+    after = [one for one, in passages(scene, reader, [1, 2], lambda *part: seen.append(part))]
     assert seen == [(n, 2 * (len(reader) - 1)) for n in range(1, 2 * len(reader) - 1)]
     monkeypatch.setattr(BaseStates, "holds", lambda *_: False)
-    together = passages(scene, reader, [1, 2])
+    together = [one for one, in passages(scene, reader, [1, 2])]
     assert [one.window.factor for one in after] == [one.window.factor for one in together] == [1, 2]
     for one, other in zip(after, together):
         assert one.entries == other.entries and one.origins == other.origins and not one.ended
