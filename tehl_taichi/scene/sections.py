@@ -428,7 +428,7 @@ class Output:
 @documented
 @dataclass(frozen=True, repr=False)
 class Zoom:
-    """A fine window that moves with the feature through the run.
+    """A fine window that moves with the feature through the run; features on both bodies have two.
 
     Examples
     --------

@@ -155,3 +155,20 @@ def test_moments_that_only_one_window_has_are_left_out():
 def test_a_warning_names_the_surface_without_a_window():
     scene = of_both(GEAR, width=2000e-6).replace(**{"zoom.factor": 4})
     assert SimpleNamespace(**{one.code: one for one in scene.warnings()}).window.data == {"surface": "a"}
+
+
+@pytest.mark.slow  # a passage on 256x64 cells
+@pytest.mark.parametrize("y", [0.0, 1.3e-4], ids=["one behind the other", "beside each other"])
+def test_an_asperity_on_the_other_body_has_what_a_fine_run_gives(y):
+    """A dent on body a has the first window. Largest pressure of the passage: 3.999 GPa with that window alone."""
+    places = ("a", -1.5e-6, 0.0, y), ("b", 1.5e-6, 0.0 if y else -2.5e-4, -y)
+    dent, asperity = (dataclasses.replace(GEAR.features[0], surface=name, height=height, x=x, y=at)
+                      for name, height, x, at in places)
+    scene = dataclasses.replace(GEAR, features=(dent, asperity)).replace(srr=0.12, **{
+        "grid.nx": 64, "grid.ny": 16, "fatigue.on": False})
+    reader = Snapshots(tehl.march(scene))
+    found, = passages(scene, reader, [4])
+    fine = Snapshots(tehl.march(scene.replace(**{"grid.nx": 256, "grid.ny": 64})))
+    p = fine.scalar("p_max_Pa")[1:].max()
+    now, first = (ZoomedReader(reader, some, scene.symmetric).scalar("p_max_Pa")[1:].max() for some in (found, found[:1]))
+    assert abs(now - p) < 0.001 * p < 0.3 * abs(first - p)
