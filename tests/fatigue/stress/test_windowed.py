@@ -154,12 +154,13 @@ def test_stresses_of_averaged_loads_are_those_of_the_fine_grid():
     assert np.abs(deep - whole_deep).max() < 0.012 * np.abs(whole_deep).max()
 
 
-def test_the_heat_of_a_window_is_that_of_the_fine_grid():
+@pytest.mark.parametrize("scene", [GEAR, BESIDE], ids=["of one body", "of both"])
+def test_the_heat_of_a_window_is_that_of_the_fine_grid(scene):
     """Temperatures alone: with the slip of two surfaces, late windows and steps that are no whole number of cells."""
-    scene = GEAR.replace(**{"fatigue.shear": False, "time.x_end": 0.01, "grid.nx": 128})
+    scene = scene.replace(**{"fatigue.shear": False, "time.x_end": 0.01, "grid.nx": 128})
     reader = zoomed(scene, 2, since=8)
-    for field in ("pressure", "traction_x_a"):
-        for values in reader.zoomed[0].fields[field]:
+    for field, one in itertools.product(("pressure", "traction_x_a"), reader.zoomed):
+        for values in one.fields[field]:
             values *= 0
     for surface in "ab":
         without = scene.replace(**{"fatigue.thermal_stress": False})
