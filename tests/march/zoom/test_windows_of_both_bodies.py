@@ -140,6 +140,15 @@ def test_a_coarse_value_in_a_window_does_not_count(at, inside):
     assert top == pytest.approx(3.0) if inside else 8.0 < top <= 9.0
 
 
+def test_no_pressure_is_negative_by_rounding():
+    scene = of_both(LINE.replace(srr=0.3), x=-2.5e-4)
+    run, found = Flat(scene, 0.0), [ZoomedPassage(w) for w in windows_of(scene, 2)]
+    for one in found:
+        one.add(1, one.window.origin(0.0), {"pressure": np.zeros((one.window.nx + 1, 1), "f4")}, {})
+    p = ZoomedReader(run, found, True).fields(1, ("pressure",))["pressure"]
+    assert p.min() == 0.0
+
+
 def test_moments_that_only_one_window_has_are_left_out():
     scene = of_both(LINE.replace(srr=0.3), x=-1.5e-4)
     run, found = Flat(scene, 9.0), []
