@@ -107,6 +107,26 @@ def test_the_rows_of_the_worst_of_listed_depths_are_searched(taichi_cpu, monkeyp
     assert asked == [[0, 2, 5], [3]]
 
 
+@pytest.mark.parametrize("row, excess, window, searched", [(1, 0.01, True, [0]), (1, 0.03, True, [0, 1]),
+                                                           (1, 0.01, False, [0, 1]), (2, 0.01, True, [0, 2])])
+@pytest.mark.parametrize("part", ["all", "early"])
+def test_rows_of_a_window_that_are_alike_are_searched_once(taichi_cpu, monkeypatch, row, excess, window, searched, part):
+    """Those beside the row of the feature with hardly more stress at the surface; rows are 5.7 um apart."""
+    scene, asked = tehl.scene("gear").replace(**{"thermal.on": False}), []
+    monkeypatch.setattr(depth_search, "_under", lambda passage, rows, *_: asked.append(rows) or ([], []))
+    monkeypatch.setattr(depth_search, "passes", lambda passage: 0)
+    monkeypatch.setattr(depth_search, "has_window", lambda reader: window)
+    passage = StressHistories(scene, reader := Rolling(scene, rows=65), reader.centres)
+    f = np.ones((passage.x.size, passage.y.size))
+    axis = SimpleNamespace(worst=SimpleNamespace(y=0.0), f=f, early=None)
+    f = f.copy()
+    f[3, row] += excess
+    beside = SimpleNamespace(worst=SimpleNamespace(y=reader.y[row]), f=f, early=None)
+    layers = [beside if part == "all" else SimpleNamespace(worst=axis.worst, f=axis.f, early=beside)]
+    depth_search.search(scene, passage, layers, None, None)
+    assert asked == [searched]
+
+
 def test_listed_depths_are_told_of_as_one_count_with_the_search(taichi_cpu):
     told = []
     scene = tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.depths": [2e-5, 6e-5]})
