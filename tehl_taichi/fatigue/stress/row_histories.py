@@ -78,8 +78,9 @@ class _Stresses:
     def __call__(self, block):
         """Stresses (entries, columns, kinds, depths, 6) Pa of the entries of one block."""
         out = self.of_loads(block)
-        for fields, tick in zip(out, self.passage.ticks[block] if self.heat else []):
-            fields[:, :, 0][..., HELD] += self.heat(tick)
+        for fields, entry in zip(out, block if self.heat else []):
+            used = self.passage.band(entry)
+            fields[used, :, 0][..., HELD] += self.heat(self.passage.ticks[entry])[used]
         return out
 
 

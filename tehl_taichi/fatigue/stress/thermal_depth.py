@@ -144,19 +144,21 @@ class ThermalBelow(SurfaceHeat):
     def rows(self, depth, rows):
         """Stresses (rows, steps, columns, 6) Pa at `depth` (m) on some rows (their numbers)."""
         w, columns = self.waves, int(self.ix.max()) + 1
-        out = np.zeros((columns, len(rows) * 6, self.size), np.complex64)
         both = np.array([[w.row_weights(row, odd)[self.iy] for odd in (False, True)] for row in rows])
         weights = both[:, np.array(ODD, int)].astype(np.complex64).transpose(2, 0, 1)  # (waves, rows, 6)
+        used = np.flatnonzero(weights.any(axis=0))  # odd components vanish on a mirror's row
+        out = np.zeros((columns, used.size, self.size), np.complex64)
         for cut, (parts, newest) in self._responses(depth):
             turns = _with_newest(self._turns(cut), newest)
-            adds = (turns[:, :, None] * weights[cut][:, None]).reshape(cut.size, 6, -1)
+            adds = (turns[:, :, None] * weights[cut][:, None]).reshape(cut.size, 6, -1)[..., used]
             ends = [*np.flatnonzero(np.diff(self.ix[cut], prepend=-1)), cut.size]
             for first, end in zip(ends[:-1], ends[1:]):  # the waves of one kx
                 out[self.ix[cut[first]]] += _rows_of(adds[first:end]).T @ _rows_of(parts[first:end])
-        out = out.reshape(columns, len(rows), 6, self.size).transpose(1, 2, 0, 3)
-        spectra = np.zeros((len(rows), 6, w.kx.size, self.entries), np.complex64)
-        spectra[:, :, :columns] = self._back(out, w.kx[:columns, 0])
-        return self.stiffness / w.nx * half_back(spectra, w.nx, 2)[:, :, : self.columns].transpose(0, 3, 2, 1)
+        spectra = np.zeros((used.size, w.kx.size, self.entries), np.complex64)
+        spectra[:, :columns] = self._back(out.transpose(1, 0, 2), w.kx[:columns, 0])
+        found = np.zeros((len(rows) * 6, self.entries, self.columns), np.float32)
+        found[used] = half_back(spectra, w.nx, 1)[:, : self.columns].transpose(0, 2, 1)
+        return self.stiffness / w.nx * found.reshape(len(rows), 6, self.entries, self.columns).transpose(0, 2, 3, 1)
 
     def at(self, depth):
         """Function of the number of a step (and a slice of rows) that returns sxx, syy, szz, sxy, sxz, syz at `depth` (m), each

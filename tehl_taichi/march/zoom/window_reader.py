@@ -44,7 +44,7 @@ class WindowReader:
             return None
         placed, run, weight = self.placed(n), self.base.fields(n, names), self._weight(n)
         return Inside(placed.origin, placed.core(*self._nodes(n)).T, {name: weight * self._own(n, name) for name in names},
-                      {name: self._of_run(n, field) for name, field in run.items()})
+                      self._of_run(n, run))
 
     def difference(self, n, name):
         """(first fine column, difference (columns, rows)) of entry n, or None without a window.
@@ -62,13 +62,15 @@ class WindowReader:
         """Field (columns, rows) of the window at entry n."""
         return self.zoomed.fields[name][self.place[n]]
 
-    def _of_run(self, n, field):
-        """A field of the run at its nodes around the window, times the weight of the window."""
+    def _of_run(self, n, fields):
+        """{name: field of the run} at its nodes around the window, times the weight of the window."""
         w, (first, count) = self.extent, self.extent.coarse_rows
         columns = w.coarse_column(self.placed(n).origin) + np.arange(w.coarse_columns)
         rows = first + np.arange(count)
-        there = np.ix_(*(np.clip(places, 0, of - 1) for places, of in zip((columns, rows), field.shape)))
-        return self._weight_at(n, w.factor * columns, w.factor * rows) * np.asarray(field, float)[there]
+        sides = (columns, len(self.base.x)), (rows, len(self.base.y))
+        there = np.ix_(*(np.clip(places, 0, of - 1) for places, of in sides))
+        weight = self._weight_at(n, w.factor * columns, w.factor * rows)
+        return {name: weight * np.asarray(field)[there] for name, field in fields.items()}
 
     def _nodes(self, n):
         """(numbers of the fine columns, of the fine rows) of the window at entry n."""
