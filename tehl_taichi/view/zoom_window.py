@@ -90,15 +90,19 @@ class ZoomWindow:
 
     def extremes(self, name):
         """One of EXTREMES at each entry, of the window alone: where it overlaps another one, of the nodes that belong to it."""
-        (field, extreme), others = EXTREMES[name], [one for one in ZoomWindow.all_of(self.store) if one.first != self.first]
-        if not others:
-            return extreme(self._moments(field), axis=(1, 2))
+        field, extreme = EXTREMES[name]
         moments = zip(self.entries, self._moments(field))
-        return np.array([extreme(values[self._own(entry, others)]) for entry, values in moments])
+        return np.array([extreme(values[self.own(entry)]) for entry, values in moments])
 
-    def _own(self, entry, others):
-        """Mask (columns, rows) of its nodes that belong to it at an entry of the run."""
-        return overlap.inside(self._placed(entry), [one._placed(entry) for one in others if entry in one]).T
+    def own(self, entry):
+        """Mask (columns, rows) of its nodes that belong to it at an entry of the run: all, without another window."""
+        others = [one._placed(entry) for one in self.others if entry in one]
+        return overlap.inside(self._placed(entry), others).T if others else np.ones((self.x.size, self.y.size), bool)
+
+    @cached_property
+    def others(self):
+        """List of the other windows of the run."""
+        return [one for one in self.all_of(self.store) if one.first != self.first]
 
     def _placed(self, entry):
         """The PlacedWindow at an entry of the run."""

@@ -47,6 +47,12 @@ def test_figures_show_both(run):
     assert len(left) == 2 and left[0] != left[1]
 
 
+def test_each_node_has_one_line(run):
+    lines = line_figures.centreline(FigureStyle(), Moments(run.store, -1.5)).axes[0].lines
+    first, second = (line.get_xdata()[np.isfinite(line.get_ydata())] for line in lines if line.get_marker() == ".")
+    assert min(first.size, second.size) > 5 and not np.isclose(first[:, None], second).any()
+
+
 def test_the_report_shows_both(run):
     section, = zoom_plots.section(run.store)
     names = [figure.name for block in section.shown for figure in block.data["figures"]]
