@@ -67,7 +67,7 @@ def test_the_pages_show_commands():
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory, taichi_cpu):
-    """What the pages have made before: two runs, a study, a flank, a scan with its scene, a table of positions."""
+    """What the pages have made before: four runs, a study, a flank, a scan with its scene, a table of positions."""
     import made_results
 
     place = tmp_path_factory.mktemp("pages")
@@ -77,6 +77,9 @@ def folder(tmp_path_factory, taichi_cpu):
     shutil.copytree(place / "runs" / "gear-1.zarr", place / "runs" / "gear.zarr")
     deep = ("--steps", 3, "--set", "fatigue.depths=[40e-6]", "--out", "runs/furrow.zarr")
     assert here(*run, *deep, cwd=place).returncode == 0
+    glass = ("run", "ball-on-glass", *SMALL.split(), "--steps", 0, "--out", "runs/glass.zarr")
+    assert here(*glass, cwd=place).returncode == 0
+    shutil.copytree(place / "runs" / "glass.zarr", place / "runs" / "ball-on-glass-1.zarr")
     made_results.flank(place / "runs" / "fzg-c-1")
     _study(place)
     heights = 1e-1 * np.sin(np.arange(60) / 9.0)[:, None] * np.cos(np.arange(80) / 7.0)
