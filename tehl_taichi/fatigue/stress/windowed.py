@@ -218,7 +218,8 @@ class Folded:
 
     def along(self, field, columns):
         """Field (fine columns, ...) from a field (columns, ...), at a slice of fine columns."""
-        return np.tensordot(matrix(self.factor, len(field), POINTS)[columns].astype(field.dtype), field, 1)
+        used = slice(max(columns.start // self.factor - POINTS, 0), columns.stop // self.factor + POINTS)
+        return np.tensordot(matrix(self.factor, len(field), POINTS)[columns, used].astype(field.dtype), field[used], 1)
 
 
 class RunNodes:
