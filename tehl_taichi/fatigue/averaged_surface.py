@@ -10,14 +10,13 @@ import numpy as np
 
 from tehl_taichi.fatigue import findley
 from tehl_taichi.fatigue.layer import Layer
-from tehl_taichi.fatigue.stress.averaging import weights
-from tehl_taichi.fatigue.stress.half_space import COMPONENTS
+from tehl_taichi.fatigue.stress.averaging import is_mirrored, weights
+from tehl_taichi.fatigue.stress.half_space import COMPONENTS, ODD
 from tehl_taichi.fatigue.worst_point import CLOSE, close_ones, worse
 from tehl_taichi.laws.criteria import CRITERIA
 
 LOW = 1.03  # first planes are so much too low (`NEAR` of findley.py)
 AT_ONCE = 128  # points that are searched together, those with the largest bounds first
-ODD = [COMPONENTS.index(name) for name in ("sxy", "syz")]  # components with the other sign in the mirror image about y = 0
 
 
 class AveragedSurface:
@@ -30,7 +29,7 @@ class AveragedSurface:
     def __init__(self, passage, length):
         self.passage, self.local, self.done = passage, passage.strength.at(0.0), 0
         y = passage.reader.y
-        self.mirrored = len(y) > 1 and y[0] == 0 and passage.rows.start == 0
+        self.mirrored = is_mirrored(passage.reader) and passage.rows.start == 0
         self.parts = [list(enumerate(part, -(part.size // 2))) for part in (
             weights(length, passage.dx), weights(length, float(y[1] - y[0])) if len(y) > 1 else np.ones(1))]
         self.reach = len(self.parts[1]) // 2
@@ -83,12 +82,7 @@ class AveragedSurface:
         """Least value (Pa) that matters."""
         if self.worst is None:
             return -np.inf
-        return self.worst.f - (1 - CLOSE) * abs(self.worst.f) if self._follows else self.worst.f
-
-    @property
-    def _follows(self):
-        """Whether the worst points are followed between the moments of the run."""
-        return getattr(self.passage.reader, "every", None) is not None
+        return self.worst.f - (1 - CLOSE) * abs(self.worst.f) if self.passage.follows else self.worst.f
 
     def _averaged(self, part, values, columns, rows):
         """Averages (points, ...) of values (x', rows of `part`, ...) around these points."""
@@ -113,7 +107,7 @@ class AveragedSurface:
             return 0.0, passage.x[columns[n]], passage.y[rows[n]]
 
         self.worst = worse(self.worst, places, histories, f, normals, self.local)
-        if self._follows:
+        if self.passage.follows:
             self.close = close_ones(self.close, places, histories, f, normals, self.local)
 
 

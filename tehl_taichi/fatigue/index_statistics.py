@@ -4,6 +4,8 @@ not.
 
 import numpy as np
 
+from tehl_taichi.fatigue.stress.averaging import is_mirrored
+
 QUANTILES = {"median": 0.5, "p90": 0.9, "p99": 0.99}
 NUMBERS = ("share_above_1", *QUANTILES)
 SAMPLE = 256  # points whose cycles are counted
@@ -19,7 +21,7 @@ def weights(passage):
     for feature in passage.scene.features:
         inside[np.ix_(*_under(passage, feature))] = 1.0
     inside = inside if inside.any() else np.ones_like(inside)
-    both = passage.reader.y[0] == 0 and passage.reader.y.size > 1
+    both = is_mirrored(passage.reader)
     return inside * np.where(both & (passage.y > 0), 2.0, 1.0)
 
 

@@ -50,7 +50,7 @@ def layer(scene, passage, depth, progress, early, averages=None):
     :class:`tehl_taichi.fatigue.averaged_surface.AveragedSurface` that takes the histories, or None.
     """
     parts, worst, peaks, close, sooner = [], None, [], [], _Early(scene, passage, depth, early)
-    follows = not depth and getattr(passage.reader, "every", None) is not None
+    follows = not depth and passage.follows
     counts, local = index_statistics.weights(passage), passage.strength.at(depth)
     brief = passage.sought.brief
     counted, needed = index_statistics.sample(counts) & (not brief), (counts > 0) & (passage.sought is Sought.COUNTED)

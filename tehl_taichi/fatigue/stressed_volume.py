@@ -8,6 +8,7 @@ The probability of a crack grows with the stressed volume: twice the volume at o
 import numpy as np
 
 from tehl_taichi.fatigue import depth_profile
+from tehl_taichi.fatigue.stress.averaging import is_mirrored
 
 ROWS = 13  # of the searched part, at most, under which the index is found at all depths
 AT_ONCE = 3  # rows whose histories are held together
@@ -23,7 +24,7 @@ def part(passage, surface_f, alone):
     m, depths = passage.scene.fatigue.weibull, np.append(0.0, depth_profile.ladder(passage))
     rows, limits = _rows(passage), np.array(passage.strength.limits(depths))[:, None]
     f = np.stack(_under(passage, surface_f, rows), axis=-1)
-    y, weight = passage.y[rows], 2.0 if passage.reader.y[0] == 0 and passage.reader.y.size > 1 else 1.0
+    y, weight = passage.y[rows], 2.0 if is_mirrored(passage.reader) else 1.0
     each = over_depth(f / limits[..., None], depths, m), np.maximum(f[0] / limits[0], 0.0) ** m
     volume, surface = (weight * over_area(values, passage.dx, y) for values in each)
     smooth = float(over_depth(alone.f[:, None] / limits, depths, m)[0]), max(float(alone.f[0] / limits[0, 0]), 0.0) ** m

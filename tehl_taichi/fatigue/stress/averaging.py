@@ -43,7 +43,7 @@ class AveragedReader:
         self.reader, self.x, self.y, self.time, self.feature_x = reader, reader.x, reader.y, reader.time, reader.feature_x
         self.along, self.across = (weights(length, float(side[1] - side[0])) if len(side) > 1 else np.ones(1)
                                    for side in (reader.x, reader.y))
-        self.mirrored = len(reader.y) > 1 and reader.y[0] == 0
+        self.mirrored = is_mirrored(reader)
         if hasattr(reader, "parts"):
             self.parts = reader.parts
         self.residual_fields = {name: field.averaged(self.along, self.across, self.mirrored)
@@ -102,6 +102,11 @@ class AveragedWindow:
 def averaged_reader(reader, length):
     """Averages of a reader over a square of `length` (m), with its window if it has one."""
     return (WindowedAverages if has_window(reader) else AveragedReader)(reader, length)
+
+
+def is_mirrored(reader):
+    """Whether the rows of a reader are one half of a contact, mirrored about y = 0."""
+    return len(reader.y) > 1 and reader.y[0] == 0
 
 
 def has_window(reader):

@@ -10,6 +10,7 @@ from tehl_taichi.fatigue.stress.unit_loads import ACROSS, HELD, SIGNS, along, un
 from tehl_taichi.fatigue.stress.waves import Waves
 
 COMPONENTS = ("sxx", "syy", "szz", "sxy", "sxz", "syz")
+ODD = (False, False, False, True, False, True)  # components with the other sign in the mirror image about y = 0
 PHASES = (1, 1, 1, 1, 1j, 1j)  # of the components, beside those of the loads p, i q_x, i q_y: answers are real then
 
 

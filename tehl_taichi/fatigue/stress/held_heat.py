@@ -3,9 +3,10 @@ temperature (:mod:`tehl_taichi.fatigue.stress.thermal_stress` has the rest)."""
 
 import numpy as np
 
+from tehl_taichi.fatigue.stress.averaging import is_mirrored
 from tehl_taichi.fatigue.stress.half_space import COMPONENTS
 from tehl_taichi.fatigue.stress.thermal_stress import stiffness
-from tehl_taichi.fatigue.stress.windowed import POINTS, is_mirrored
+from tehl_taichi.fatigue.stress.windowed import POINTS
 from tehl_taichi.values.refining import Refining
 
 

@@ -78,6 +78,11 @@ class StressHistories:
         self._widen(*ends)
         self._choose_moments()
 
+    @property
+    def follows(self):
+        """Whether the reader has moments between those of the run, in which the worst points are followed."""
+        return getattr(self.reader, "every", None) is not None
+
     def _keep(self, box):
         """Keep the points in a Box."""
         (left, right), (low, high), (_, self.deepest), self.chosen_y = box

@@ -16,6 +16,7 @@ import math
 import numpy as np
 
 from tehl_taichi.engine.fftw import half_back, transform, transform_back
+from tehl_taichi.fatigue.stress.half_space import ODD
 from tehl_taichi.fatigue.stress.thermal_stress import SurfaceHeat, depth_after, erfcx, fast_length
 from tehl_taichi.fatigue.stress.wave_table import WaveTable
 from tehl_taichi.fatigue.stress.workers import WORKERS, pool
@@ -178,9 +179,6 @@ class ThermalBelow(SurfaceHeat):
             return out
 
         return fields
-
-
-ODD = (False, False, False, True, False, True)  # about the first row of a mirrored domain: xy and yz
 
 
 def _with_newest(turns, newest):

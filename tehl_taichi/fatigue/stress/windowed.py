@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tehl_taichi.engine.fftw import real_of
+from tehl_taichi.fatigue.stress.averaging import is_mirrored
 from tehl_taichi.fatigue.stress.row_stress import RowStress
 from tehl_taichi.fatigue.stress.unit_loads import ACROSS
 from tehl_taichi.fatigue.stress.workers import pool
@@ -258,8 +259,3 @@ class RunNodes:
         for field, band, part in zip(out, bands, parts):
             field[band] = part
         return out
-
-
-def is_mirrored(reader):
-    """Whether the rows of a reader are one half of a contact, mirrored about y = 0."""
-    return len(reader.y) > 1 and reader.y[0] == 0

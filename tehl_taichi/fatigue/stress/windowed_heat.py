@@ -4,11 +4,12 @@ import functools
 
 import numpy as np
 
+from tehl_taichi.fatigue.stress.averaging import is_mirrored
 from tehl_taichi.fatigue.stress.histories import NODES, between, shifted
 from tehl_taichi.fatigue.stress.thermal_depth import ThermalBelow
 from tehl_taichi.fatigue.stress.thermal_stress import ThermalStress
 from tehl_taichi.fatigue.stress.unit_loads import ACROSS, HELD
-from tehl_taichi.fatigue.stress.windowed import RunNodes, is_mirrored
+from tehl_taichi.fatigue.stress.windowed import RunNodes
 
 ROOM = 1.5  # rows of the grid per row of a window that begins at the mirror: space for stresses beside the window
 WEAK = 1e-3  # waves of the difference below this share of the strongest are left out
