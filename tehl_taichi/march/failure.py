@@ -61,8 +61,8 @@ def _heated(heat):
     """Reason in the temperatures, "" if there is none."""
     if not heat or heat.sound:
         return ""
-    found = [f"limited to their range (up to {HOT:g} deg C) at {heat.held} nodes"] * bool(heat.held)
-    found += [f"without a solution in {heat.report.failed} columns"] * bool(heat.report.failed)
+    found = [f"limited to their range (up to {HOT:g} deg C) at {heat.held} node{'s' * (heat.held > 1)}"] * bool(heat.held)
+    found += [f"without a solution in {heat.report.failed} column{'s' * (heat.report.failed > 1)}"] * bool(heat.report.failed)
     return f", temperatures {' and '.join(found)}" if found else ""
 
 
@@ -72,7 +72,7 @@ def _on_its_floor(solver, passing):
     floor, nodes = v.G[0, fields.FLOOR], int((v.get(fields.H) < (1 + AT_FLOOR) * v.G[0, fields.FLOOR]).sum())
     if not nodes:
         return ""
-    return (f"the film is on its floor ({floor * v.scales.h:.1e} m, rheology.film_floor) at {nodes} nodes: "
+    return (f"the film is on its floor ({floor * v.scales.h:.1e} m, rheology.film_floor) at {nodes} node{'s' * (nodes > 1)}: "
             f"{passing and _too_high(v.scene) or f'too thin for this grid, {_finer(v.scene)}'}")
 
 
