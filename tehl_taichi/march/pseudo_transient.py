@@ -181,8 +181,10 @@ class PseudoTransient:
         self.report = solve_again(self.solver)
 
     def _step(self):
-        """Compute one step, in parts if it does not converge, and at last with a few columns held: cold oil at the outlet, heated
-        by the growing slip, has some without a solution (gear at 20 deg C, SRR -0.12, on 160 and 192 columns).
+        """Compute one step, in parts if it does not converge, and at last with a few columns held.
+
+        Cold oil at the outlet, heated by the growing slip, has some without a solution (gear at 20 deg C, SRR -0.12, on 160 and
+        192 columns).
         """
         done = 0.0
         while done < 1.0 and not self.lost:

@@ -107,7 +107,7 @@ class ZoomWindow:
     def _placed(self, entry):
         """The PlacedWindow at an entry of the run."""
         X = float(self.store.feature_x(int(entry))) / Scales.of(self.store.scene).a
-        return overlap.PlacedWindow.of(self.place_on_grid, X)
+        return overlap.PlacedWindow.of(self.place_on_grid, X, self.origins(self.lefts[self.place[int(entry)]]))
 
     @cached_property
     def place_on_grid(self):

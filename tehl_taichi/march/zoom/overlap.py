@@ -21,9 +21,10 @@ class PlacedWindow:
     at: float
 
     @classmethod
-    def of(cls, window, X):
-        """The window with the first feature at X (a)."""
-        return cls(window, window.origin(X), (window.pace * X - window.x_min) / window.dx)
+    def of(cls, window, X, origin=None):
+        """The window with the first feature at X (a); origin: where it is known, as X of a store may round to its neighbour."""
+        origin = window.origin(X) if origin is None else int(origin)
+        return cls(window, origin, (window.pace * X - window.x_min) / window.dx)
 
     def core(self, columns, rows):
         """Weight (rows, columns) of the core at nodes of the fine grid (numbers of columns and rows)."""

@@ -29,8 +29,8 @@ class WindowReader:
     def _placed(self, zoomed, moment, n):
         """The PlacedWindow of a ZoomedPassage at its number `moment`, entry n of the run."""
         x, w = self.base.x, zoomed.window
-        at = (w.pace * self.base.feature_x(n) - x[0]) / (x[1] - x[0]) * w.factor
-        return PlacedWindow(w, zoomed.origins[moment], float(at))
+        a = (x[1] - x[0]) / (w.factor * w.dx)
+        return PlacedWindow.of(w, float(self.base.feature_x(n) / a), zoomed.origins[moment])
 
     def change(self, n, name, field):
         """(part of the fine grid (rows, columns), change) of a field (rows, columns) of the run at entry n by the window."""

@@ -134,9 +134,15 @@ def _advance(march, found, step):
 
 def steps_of(scene, base, until=None):
     """(first, last) step of the run with a window, by zoom.from_x and to_x; until: see :func:`passages`."""
-    at, begin = np.array([base.position(n) for n in range(base.last + 1)]), scene.zoom.from_x
-    if begin == AUTO:
-        slowest = min(surface.pace for surface in followed(scene))
-        begin = -np.inf if until is None else until - LEAD / slowest
-    inside = np.flatnonzero((at >= begin) & (at <= scene.zoom.to_x))
+    at = np.array([base.position(n) for n in range(base.last + 1)])
+    inside = np.flatnonzero((at >= begin_of(scene, until)) & (at <= scene.zoom.to_x))
     return (int(inside[0]), int(inside[-1])) if inside.size else (0, 0)
+
+
+def begin_of(scene, until):
+    """Position (a) of the first feature from which windows move: zoom.from_x, or before `until` (:func:`passages`), so that the
+    oil of the slowest one is its own by then.
+    """
+    if scene.zoom.from_x != AUTO:
+        return scene.zoom.from_x
+    return -np.inf if until is None else until - LEAD / min(surface.pace for surface in followed(scene))

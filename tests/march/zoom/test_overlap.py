@@ -73,3 +73,11 @@ def test_no_node_of_a_window_is_without_one(X):
     assert np.array_equal(~overlap.outside(windows), of_one[::4, ::4])
     core = np.maximum(*(one.core(columns, rows) for one in windows))
     assert np.array_equal(core >= HALF, of_one)
+
+
+def test_a_window_is_where_its_store_says():
+    """By the number of its first column: half-way between two columns, the position of the feature in m and back rounds."""
+    (window, *_) = windows_of(tehl.scene("gear"), 4)
+    placed = PlacedWindow.of(window, 0.3)
+    moved = PlacedWindow.of(window, 0.3, placed.origin + 1)
+    assert (moved.origin, moved.at) == (placed.origin + 1, placed.at)
