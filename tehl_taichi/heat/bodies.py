@@ -43,6 +43,10 @@ class ConductingBody:
             return known.B
         return known.B + (known.B_last + float((known.weight * known.decay) @ self.settled()))
 
+    def like(self, other):
+        """Whether another ConductingBody has the same temperatures under the same heat."""
+        return all(getattr(self, name) == getattr(other, name) for name in ("speed", "rests", "effusivity", "depth", "spread"))
+
     def settled(self):
         """Modes after a long time, per unit flux."""
         return conduction_modes.steady_modes(self.dt, self.depth, self.spread)

@@ -19,6 +19,7 @@ class HeatStep:
     near: ti.f64  # weight of the state dt ago in d/dt,
     far: ti.f64  # and of that back_2 ago: together 1
     hold: ti.f64  # 1: columns without a solution keep the temperatures of the oil that came in, those without load may change
+    even: ti.f64  # 1: both walls are the same in everything
     given: ti.f64  # 1: columns whose pressure is given have given temperatures, too
     moved: ti.f64  # cells that the grid has moved since the last step,
     moved_2: ti.f64  # and since the one before

@@ -57,7 +57,8 @@ class FilmHeat:
         self.across, self.columns = ChebyshevNodes(self.nz), film_tables.FilmTables(levels, self.nz)
         self.bodies = ConductingBodies(levels, self.columns, dt_s)
         self.holding = False  # columns without a solution at the temperatures of the oil that came in, see :meth:`hold`
-        self.step, self.dt_now, self.dt_before = Record(HeatStep, given=float(given)), 0.0, 0.0
+        even = self.bodies.each[0].like(self.bodies.each[1])
+        self.step, self.dt_now, self.dt_before = Record(HeatStep, given=float(given), even=float(even)), 0.0, 0.0
         self.moved = self.moved_before = 0  # cells that the grid moves in this step, and in the last
         self.report, self.relaxed = HeatReport(math.nan, 0, 0), False
         self._bind(levels.scene)

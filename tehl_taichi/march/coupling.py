@@ -18,31 +18,21 @@ SURELY, WITHIN = 8, 4
 # 3.30/2.69; at the exit of a window four times as fine 7.9/4.4, 6.9/4.4, 6.7/4.2 (1e-4 7.2/4.2; 1e-3 and 3 K 8.1/5.5)
 FAR = 1.0
 ROUGH = 2e-4
-# A failed step is repeated in parts, with temperatures in so many times the rounds: at the outlet edge of a hot film a shorter
-# step changes as much from round to round (asperity of 100 um on 128 columns, SRR -0.12 and 0.12: by 100 K and more; with 8
-# rounds neither passes 1.15 a)
-MORE_ROUNDS = 4
 
 
-def rounds(scene, part):
-    """Largest number of rounds in `part` of a step: more for a part, unless the user wants one lagged round."""
-    most = scene.thermal.rounds
-    return most if part == 1.0 or most == 1 else MORE_ROUNDS * most
-
-
-def exchange(solver, heat, solve, most=None, sparing=False):
+def exchange(solver, heat, solve, sparing=False):
     """Alternate pressure (solve() -> SolveReport) and temperatures until a further round would change them by less than
     thermal.tolerance.
 
-    most: number of rounds (thermal.rounds). Storage and heat must have begun the step. Returns a SolveReport with the work of
-    all rounds, converged = False without success. The first round takes only one Newton step, because its temperatures are
-    guesses. sparing: while temperatures are far off, later rounds solve roughly and reuse slowly changing data. Not for a
-    start, where the state of cold oil, with eddies in its inlet, is only apparent from the remainders of blocks of steps: gear
-    at 20 deg C, SRR -0.12, 64 columns, then settled with 1.6 K instead of 0.05.
+    Storage and heat must have begun the step. Returns a SolveReport with the work of all rounds, converged = False without
+    success. The first round takes only one Newton step, because its temperatures are guesses. sparing: while temperatures are
+    far off, later rounds solve roughly and reuse slowly changing data. Not for a start, where the state of cold oil, with
+    eddies in its inlet, is only apparent from the remainders of blocks of steps: gear at 20 deg C, SRR -0.12, 64 columns, then
+    settled with 1.6 K instead of 0.05.
     """
     thermal, work, changes = solver.levels.scene.thermal, [], [math.inf]
     alternates = thermal.rounds > 1
-    for turn in range(most or thermal.rounds):
+    for turn in range(thermal.rounds):
         first, before = turn == 0 and alternates, changes[-1]
         reports, rough = _pressure(solver, solve, first, sparing, sparing and alternates and before > FAR)
         work += reports

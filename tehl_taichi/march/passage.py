@@ -12,7 +12,7 @@ import numpy as np
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march import snapshot
-from tehl_taichi.march.coupling import carefully, exchange, rounds
+from tehl_taichi.march.coupling import carefully, exchange
 from tehl_taichi.march.failure import crossed_surfaces, not_converged
 from tehl_taichi.march.feature_gap import sink, with_features
 from tehl_taichi.march.prediction import Prediction
@@ -137,7 +137,7 @@ class Passage:
     def _exchange(self, part):
         """Solve pressure and temperatures of a part of a step."""
         self.heat.begin(part * self.dT * self.scales.t)
-        return exchange(self.solver, self.heat, self._solve, rounds(self.scene, part), sparing=True)
+        return exchange(self.solver, self.heat, self._solve, sparing=True)
 
     def _solve(self):
         """Solve the pressure with film, cavitation, solid contact and load; with a safer method if it does not converge at

@@ -6,7 +6,7 @@ pressure outside, and the history of rho H along the border. The window takes `f
 
 import numpy as np
 
-from tehl_taichi.march.coupling import carefully, exchange, rounds
+from tehl_taichi.march.coupling import carefully, exchange
 from tehl_taichi.march.substeps import Substeps
 from tehl_taichi.march.zoom import overlap
 from tehl_taichi.march.zoom.outside_gap import OutsideGap
@@ -116,7 +116,7 @@ class WindowPassage:
         if not self.heat:
             return pressure()
         self.heat.begin(state.T, origin, self._at(state), part * self.dT * self.base.scales.t)
-        return exchange(self.solver, self.film, pressure, rounds(self.scene, part), sparing=True)
+        return exchange(self.solver, self.film, pressure, sparing=True)
 
     def fields(self):
         """{name: (nx+1, ny+1) f4} of the newest state, SI units."""
