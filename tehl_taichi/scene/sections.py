@@ -209,7 +209,7 @@ class Thermal:
     nodes: int = count(9, "Chebyshev nodes across the film, odd: one at mid-film", 5, 33)
     tolerance: float = quantity(0.05, "K", "largest temperature change in the last round of a step", 1e-6, 10.0)
     # With 8 of them steps behind a front were taken in parts, with up to 7 % other pressures (a rolling dent), and an asperity
-    # of 100 um, whose outlet changes by 100 K and more from round to round, did not pass 1.15 a (128 columns, SRR -0.12 and 0.12)
+    # of 100 um, whose outlet changes by 100 K and more from round to round, did not pass 1.15 a (128 columns, SRR -0.12, 0.12)
     rounds: int = count(32, "largest number of pressure-temperature rounds of a step", 1, 50)
 
     def __post_init__(self):
