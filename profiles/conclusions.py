@@ -250,8 +250,8 @@ def page(rows, judged, scene_, columns=COLUMNS):
 
 
 def plain_row(row):
-    """A row as its JSON has it."""
-    found = {"; ".join(key): (value, row.errors[key]) for key, value in row.values.items()}
+    """A row as its JSON has it; depths have no error."""
+    found = {"; ".join(key): (value, row.errors.get(key, np.nan)) for key, value in row.values.items()}
     return {"case": row.name, "body": row.body, "grid": row.grid, "reason": row.reason, "friction": row.friction,
             "findley_stress_Pa": found}
 

@@ -44,6 +44,17 @@ def test_averaged_stresses_lead_and_bodies_come_in_order(tmp_path, monkeypatch):
     assert b.values[DEPTHS[DEEP["whole"]]] == 3e-6 and b.grid == "256x64 zoom 4"
 
 
+def test_rows_are_written_as_json_and_drawn(tmp_path, monkeypatch):
+    """Depths have no error: the suite lost its results of two hours by that."""
+    import matplotlib.pyplot as plt
+
+    (row,) = rows(tmp_path, monkeypatch, body("a", 0.9, 0.09))
+    found = conclusions.plain_row(row)["findley_stress_Pa"]
+    assert found["all; whole"] == (360e6, pytest.approx(36e6))
+    assert found["depth; whole"][0] == 3e-6 and np.isnan(found["depth; whole"][1])
+    plt.close(conclusions.chart(plt, [row]))
+
+
 def test_statements_are_those_of_the_whole_passage(tmp_path, monkeypatch):
     found = rows(tmp_path, monkeypatch, body("b", 1.0, 0.02), body("a", 0.9, 0.01))
     judged = {statement: verdict for statement, verdict, _ in zoomed_conclusions.verdicts(found, 400e6)}
