@@ -20,19 +20,19 @@ FAR = 1.0
 ROUGH = 2e-4
 
 
-def exchange(solver, heat, solve, sparing=False):
+def exchange(solver, heat, solve, most=math.inf, sparing=False):
     """Alternate pressure (solve() -> SolveReport) and temperatures until a further round would change them by less than
     thermal.tolerance.
 
-    Storage and heat must have begun the step. Returns a SolveReport with the work of all rounds, converged = False without
-    success. The first round takes only one Newton step, because its temperatures are guesses. sparing: while temperatures are
-    far off, later rounds solve roughly and reuse slowly changing data. Not for a start, where the state of cold oil, with
-    eddies in its inlet, is only apparent from the remainders of blocks of steps: gear at 20 deg C, SRR -0.12, 64 columns, then
-    settled with 1.6 K instead of 0.05.
+    most: number of rounds, if less than thermal.rounds. Storage and heat must have begun the step. Returns a SolveReport with
+    the work of all rounds, converged = False without success. The first round takes only one Newton step, because its
+    temperatures are guesses. sparing: while temperatures are far off, later rounds solve roughly and reuse slowly changing
+    data. Not for a start, where the state of cold oil, with eddies in its inlet, is only apparent from the remainders of blocks
+    of steps: gear at 20 deg C, SRR -0.12, 64 columns, then settled with 1.6 K instead of 0.05.
     """
     thermal, work, changes = solver.levels.scene.thermal, [], [math.inf]
     alternates = thermal.rounds > 1
-    for turn in range(thermal.rounds):
+    for turn in range(min(most, thermal.rounds)):
         first, before = turn == 0 and alternates, changes[-1]
         reports, rough = _pressure(solver, solve, first, sparing, sparing and alternates and before > FAR)
         work += reports

@@ -2,7 +2,6 @@
 
 import dataclasses
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -322,14 +321,6 @@ def test_heat_balance():
     made, squeezed, bodies, carried = (float(q[wet].sum()) * cell for q in sources_and_sinks(result.heat, levels))
     assert abs(bodies + carried - made - squeezed) < 1e-3 * made
     assert bodies == pytest.approx(58.52e3, rel=0.01)
-
-
-@pytest.mark.parametrize("part, rounds, most", [(1.0, 8, 8), (0.5, 8, 32), (0.25, 1, 1)])
-def test_a_part_of_a_step_gets_more_rounds(part, rounds, most):
-    """Not where one lagged round is wanted."""
-    from tehl_taichi.march import coupling
-
-    assert coupling.rounds(SimpleNamespace(thermal=Thermal(rounds=rounds)), part) == most
 
 
 @pytest.mark.slow

@@ -4,6 +4,8 @@ Less would be welcome, but somebody should know why: whoever changes the solver 
 or a preconditioner that has lost something (weights of the coarser grids, a derivative), or a worse guess for the next step.
 """
 
+import math
+
 import numpy as np
 import pytest
 
@@ -175,6 +177,14 @@ def test_rounds_that_do_not_settle_are_given_up(temperatures, rounds, settles):
     solves = Solves(0.01, 1e-2, [1e-7] * 40, temperatures)
     assert exchange(solves, solves, solves.solve, sparing=True).converged == settles
     assert solves.asked.count("heat") == rounds
+
+
+@pytest.mark.parametrize("most, rounds", [(8, 8), (math.inf, 32), (40, 32)])
+def test_a_start_has_fewer_rounds(most, rounds):
+    from tehl_taichi.march.coupling import exchange
+
+    solves = Solves(0.01, 1e-2, [1e-7] * 40, [16.0 * 0.95**n for n in range(40)])
+    assert not exchange(solves, solves, solves.solve, most).converged and solves.asked.count("heat") == rounds
 
 
 def test_a_start_solves_every_pressure_to_the_end():
