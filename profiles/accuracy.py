@@ -18,7 +18,7 @@ COLUMNS = {"steady line": (64, 128, 256, 512, 1024), "steady circle": (64, 128, 
            "passage": (64, 128, 256, 512), "thermal passage": (64, 128, 256, 512)}
 QUICK = {"steady line": (64, 128, 256), "steady circle": (32, 64, 128), "passage": (32, 64, 128)}
 # (columns, factor of a window that moves with the feature over the whole passage) of a family
-WINDOWS = {"passage": ((64, 4), (128, 4)), "thermal passage": ((64, 4), (128, 4))}
+WINDOWS = {family: ((64, 4), (64, 8), (128, 2), (128, 4)) for family in ("passage", "thermal passage")}
 QUICK_WINDOWS = {"passage": ((64, 2),)}
 QUANTITIES = ("h_c_m", "h_min_m", "p_max_Pa", "film_max_C", "Fi_max")
 # of a thermal passage on one grid, against REFERENCE. Not in it: the time step. Steps of whole cells carry the film nearly from
