@@ -106,6 +106,7 @@ def check_version(path, run):
 def continued(path, scene, threads, began, progress):
     """Continue the store at `path` to the end of `scene`."""
     from tehl_taichi.engine import runtime
+    from tehl_taichi.runs import background_errors
     from tehl_taichi.store.store import Store
 
     _check_memory(scene)
@@ -118,7 +119,8 @@ def continued(path, scene, threads, began, progress):
         clock = _Clock(began, _spent(saved))
         if scene != saved.scene:
             saved.extend(scene)
-        return _finish(saved, state, steady, clock, progress)
+        with background_errors.coarse_grid_runs(scene) as coarse_answers_until:
+            return _finish(saved, state, steady, clock, progress, coarse_answers_until)
 
 
 def _spent(saved):
@@ -129,28 +131,40 @@ def _spent(saved):
 def _begin(scene, place, clock, progress):
     """Compute the steady start into a new store, then everything after it."""
     from tehl_taichi.engine import runtime
-    from tehl_taichi.march.passage import march
-    from tehl_taichi.runs.provenance import provenance
+    from tehl_taichi.runs import background_errors
     from tehl_taichi.scene.timeline import most_steps
-    from tehl_taichi.store.json_values import plain
     from tehl_taichi.store.store import Store
-    from tehl_taichi.values.coded_text import unknown_of
 
     _announce(scene, progress)
     if not runtime.has_kernels():
         progress.say("compiling kernels, once for this version: up to a minute; later runs load them")
+    with background_errors.coarse_grid_runs(scene) as coarse_answers_until:
+        first, steady = _steady_start(scene, progress)
+        with Store.create(place, scene, first, most_steps(scene) + 1, _attributes(scene, steady)) as saved:
+            return _finish(saved, saved.go_back(), steady, clock, progress, coarse_answers_until)
+
+
+def _steady_start(scene, progress):
+    """(first snapshot, its results for the summary)."""
+    from tehl_taichi.march.passage import march
+    from tehl_taichi.store.json_values import plain
+    from tehl_taichi.values.coded_text import unknown_of
+
     progress.stage(STEADY, 0, 1)
     first = next(march(scene))
     progress.stage(STEADY, 1, 1)
     if first.unsettled:
         progress.warn(f"{first.unsettled}; the passage starts from an unsteady state")
-    steady = {"steady_error": plain(first.error), "steady_parts": plain(first.parts), "steady_domain": first.domain.values(),
-              "steady_contact_alone": plain(_contact_alone(scene, first)),
-              **{f"steady_{name}": values for name, values in unknown_of(first.unknown).items()}}
-    attrs = {**texts(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()},
-             **provenance(scene)}
-    with Store.create(place, scene, first, most_steps(scene) + 1, attrs) as saved:
-        return _finish(saved, saved.go_back(), steady, clock, progress)
+    return first, {"steady_error": plain(first.error), "steady_parts": plain(first.parts),
+                   "steady_domain": first.domain.values(), "steady_contact_alone": plain(_contact_alone(scene, first)),
+                   **{f"steady_{name}": values for name, values in unknown_of(first.unknown).items()}}
+
+
+def _attributes(scene, steady):
+    """Attributes of a new store."""
+    from tehl_taichi.runs.provenance import provenance
+
+    return {**texts(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()}, **provenance(scene)}
 
 
 def _contact_alone(scene, first):
@@ -171,32 +185,32 @@ def _announce(scene, progress):
         progress.warn(sentence)
 
 
-def _finish(saved, state, steady, clock, progress):
-    """Compute everything from the last stored state to the summary."""
+def _finish(saved, state, steady, clock, progress, coarse_answers_until):
+    """Compute everything from the last stored state to the summary; coarse_answers_until: see
+    :func:`tehl_taichi.runs.background_errors.coarse_grid_runs`.
+    """
     from tehl_taichi.march.accuracy import coarse_runs
     from tehl_taichi.march.accuracy.domain_error import DomainError
-    from tehl_taichi.runs import background_errors
     from tehl_taichi.runs.summary.summary import summarise
 
-    with background_errors.coarse_grid_runs(saved.scene) as coarse_answers_until:
-        saved.kept_states = _kept_states(saved.scene, state)
-        run_in = _march(saved, state, progress)
-        until = _resolved(saved)
-        coarse_answers = coarse_answers_until(until)
-        alone = _fatigue(saved, until, progress)
-        found, arrays = (alone.summaries, alone.to_arrays()) if alone else ({}, None)
-        steel = _run_in_part(saved.scene, run_in) if run_in else {}
-        _add_contact_alone(found, steady["steady_contact_alone"])
-        sure = {name: one for name, one in found.items() if not why_none(one)}
-        domain = DomainError.from_values(steady["steady_domain"])
-        notify = functools.partial(progress.stage, ERRORS)
-        passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain, steel.get("run_in"))
-        if saved.scene.zooms and len(saved) > 2:
-            from tehl_taichi.runs import zoomed_run
+    saved.kept_states = _kept_states(saved.scene, state)
+    run_in = _march(saved, state, progress)
+    until = _resolved(saved)
+    coarse_answers = coarse_answers_until(until)
+    alone = _fatigue(saved, until, progress)
+    found, arrays = (alone.summaries, alone.to_arrays()) if alone else ({}, None)
+    steel = _run_in_part(saved.scene, run_in) if run_in else {}
+    _add_contact_alone(found, steady["steady_contact_alone"])
+    sure = {name: one for name, one in found.items() if not why_none(one)}
+    domain = DomainError.from_values(steady["steady_domain"])
+    notify = functools.partial(progress.stage, ERRORS)
+    passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain, steel.get("run_in"))
+    if saved.scene.zooms and len(saved) > 2:
+        from tehl_taichi.runs import zoomed_run
 
-            passage, found, arrays = zoomed_run.refined(saved, passage, alone if sure else None, domain, progress)
-            _add_contact_alone(found, steady["steady_contact_alone"])
-        arrays = _with_steel(run_in, found, arrays) if run_in else arrays
+        passage, found, arrays = zoomed_run.refined(saved, passage, alone if sure else None, domain, progress)
+        _add_contact_alone(found, steady["steady_contact_alone"])
+    arrays = _with_steel(run_in, found, arrays) if run_in else arrays
     saved.finish(summarise(saved, {**clock.times(), **steady, **passage, **steel}, found), arrays)
     return Run(saved)
 

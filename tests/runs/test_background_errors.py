@@ -1,5 +1,7 @@
 """Companions beside their run: where a core is idle, the same answers, and nothing left behind."""
 
+import contextlib
+import importlib
 import os
 import signal
 import subprocess
@@ -9,7 +11,7 @@ import time
 import pytest
 
 from tehl_taichi.march.accuracy import coarse_runs
-from tehl_taichi.runs import background_errors
+from tehl_taichi.runs import background_errors, single_run
 from tehl_taichi.runs.sweep import job
 from tehl_taichi.scene import scene
 
@@ -28,6 +30,7 @@ def idle_core(taichi_cpu, monkeypatch):
     """As many as this process uses: kernels are compiled for a number of threads."""
     monkeypatch.setattr(background_errors.cores, "available", lambda: background_errors.runtime.ensure()["threads"] + 2)
     monkeypatch.setattr(background_errors, "LONG", 0.0)
+    monkeypatch.setattr(background_errors, "WAITS", float("inf"))  # a short run would not wait until their kernels are there
 
 
 @pytest.fixture
@@ -62,27 +65,24 @@ def test_they_hear_up_to_where_the_run_is_resolved(idle_core, nowhere):
     assert 0 < found["a:resolved_Fi_max"]["value"] < found["a:Fi_max"]["value"]
 
 
-def test_only_an_idle_core_has_them_beside(taichi_cpu, monkeypatch):
-    threads = background_errors.runtime.ensure()["threads"]
-    monkeypatch.setattr(background_errors, "LONG", 0.0)
-    for cores, working, expected in ((threads, [], 0), (threads + 1, [], 1), (threads + 1, ["a lane"], 0)):
-        monkeypatch.setattr(background_errors.cores, "available", lambda cores=cores: cores)
-        monkeypatch.setattr(job, "_lane", working)
-        assert max(0, background_errors.idle_cores()) == expected
-        monkeypatch.setattr(background_errors, "_started", sleeper if expected else no_process)
-        with background_errors.coarse_grid_runs(SHORT) as told:
-            assert (told(None).func is coarse_runs.answers) == (not expected)
+@pytest.mark.parametrize("cores,threads,expected", [(1, 1, 0), (2, 1, 1), (2, 2, 1), (4, 4, 1), (4, 3, 1), (8, 8, 0),
+                                                    (16, 8, 8), (16, 12, 4), (16, 2, 2)])
+def test_they_have_idle_cores_or_what_a_run_leaves_of_a_few(monkeypatch, cores, threads, expected):
+    monkeypatch.setattr(background_errors.cores, "available", lambda: cores)
+    assert background_errors.threads_beside(threads) == expected
+    monkeypatch.setattr(job, "_lane", ["a lane"])
+    assert background_errors.threads_beside(threads) == 0
 
 
-@pytest.mark.parametrize("idle", (1, 2, 7))
-def test_they_have_the_idle_cores_and_no_more_threads_than_the_run(taichi_cpu, monkeypatch, idle):
-    threads = background_errors.runtime.ensure()["threads"]
-    monkeypatch.setattr(background_errors, "LONG", 0.0)
-    monkeypatch.setattr(background_errors.cores, "available", lambda: threads + idle)
-    monkeypatch.setattr(background_errors, "_started", lambda scene, pipe, count: given.append(count) or sleeper())
+@pytest.mark.parametrize("threads", (0, 1, 7))
+def test_they_are_beside_the_run_with_threads_of_their_own(taichi_cpu, monkeypatch, threads):
     given = []
-    with background_errors.coarse_grid_runs(SHORT):
-        assert given == [min(idle, threads)]
+    monkeypatch.setattr(background_errors, "LONG", 0.0)
+    monkeypatch.setattr(background_errors, "threads_beside", lambda _: threads)
+    monkeypatch.setattr(background_errors, "_started", lambda scene, pipe, count: given.append(count) or sleeper())
+    with background_errors.coarse_grid_runs(SHORT) as told:
+        assert given == [threads] * (threads > 0)
+        assert (told(None).func is coarse_runs.answers) == (not threads)
 
 
 def no_process(*_):
@@ -120,6 +120,57 @@ def test_where_they_die_they_are_worked_out_here(idle_core, monkeypatch):
     monkeypatch.setattr(coarse_runs, "answers", lambda one, notify, until: [one.name, until()])
     with background_errors.coarse_grid_runs(SHORT) as told:
         assert told(0.25)() == ["gear", 0.25]
+
+
+def test_who_waits_too_long_works_them_out_itself(idle_core, monkeypatch):
+    """On a machine whose cores are all used by other work the process would never end."""
+    processes = []
+    monkeypatch.setattr(background_errors, "_started", lambda *_: processes.append(sleeper()) or processes[0])
+    monkeypatch.setattr(background_errors, "TELL", 0.01)
+    monkeypatch.setattr(background_errors, "WAITS", 0.25)
+    monkeypatch.setattr(coarse_runs, "answers", lambda one, notify, until: [one.name, until()])
+    with background_errors.coarse_grid_runs(SHORT) as told:
+        time.sleep(0.2)
+        began = time.monotonic()
+        assert told(0.25)() == ["gear", 0.25] and processes[0].wait() == -signal.SIGKILL
+        assert 0.05 <= time.monotonic() - began < 5.0
+
+
+def test_they_begin_before_the_steady_start_and_end_with_it(taichi_cpu, monkeypatch, tmp_path):
+    """A run leaves a core idle before its first step."""
+    seen, processes = [], []
+    monkeypatch.setattr(background_errors, "LONG", 0.0)
+    monkeypatch.setattr(background_errors, "threads_beside", lambda _: 1)
+    monkeypatch.setattr(background_errors, "_started", lambda *_: processes.append(sleeper()) or processes[0])
+
+    def start(*_):
+        seen.append([process.poll() for process in processes])
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(importlib.import_module("tehl_taichi.march.passage"), "march", start)
+    with pytest.raises(KeyboardInterrupt):
+        single_run.run(SHORT, tmp_path / "stopped.zarr")
+    assert seen == [[None]] and processes[0].returncode == -signal.SIGKILL
+
+
+@pytest.mark.skipif(not hasattr(os, "SCHED_IDLE"), reason="this system has no such priority")
+def test_they_give_way_to_other_work(idle_core):
+    with background_errors.coarse_grid_runs(SHORT):
+        deadline = time.monotonic() + 30
+        while not (given := ways_of(os.getpid())) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        assert set(given) == {os.SCHED_IDLE}
+    assert os.sched_getscheduler(0) == os.SCHED_OTHER
+
+
+def ways_of(parent):
+    """Priorities of the processes of `parent` that have chosen one."""
+    children = subprocess.run(["pgrep", "-P", str(parent)], capture_output=True, text=True).stdout.split()
+    found = []
+    for child in children:
+        with contextlib.suppress(ProcessLookupError):
+            found.append(os.sched_getscheduler(int(child)))
+    return [way for way in found if way != os.SCHED_OTHER]
 
 
 LONG = ("import sys, time; from tehl_taichi.engine import runtime; from tehl_taichi.runs import background_errors as beside; "
