@@ -7,10 +7,28 @@ Mechanics, sections 2.5, 3.2 and 3.6; Love 1929; Liu & Wang 2002). No point may 
 
 import numpy as np
 
+SAME = 1e-6  # of a half side, by which edges of neighbours may differ
 
 def _corners(F, x, y, a, b):
-    """F summed over the corners of the rectangle |x| <= a, |y| <= b with alternating signs."""
+    """F summed over the corners of the rectangle |x| <= a, |y| <= b with alternating signs.
+
+    Points of a grid whose cells are the rectangle share their corners: F is then evaluated once for each, not four times.
+    """
+    along_x, along_y = _edges(x, a), _edges(y, b)
+    if along_x and along_y and along_x[1] != along_y[1]:
+        (x, first), (y, second) = along_x, along_y
+        return np.diff(np.diff(F(x, y), axis=first), axis=second)
     return F(x + a, y + b) - F(x + a, y - b) - F(x - a, y + b) + F(x - a, y - b)
+
+
+def _edges(v, half):
+    """(edges of rectangles around the places v, their axis counted from the last), if these are `2 half` apart along one axis;
+    else None."""
+    v = np.asarray(v)
+    axes = [n - v.ndim for n in range(v.ndim) if v.shape[n] > 1]
+    if len(axes) != 1 or np.abs(np.diff(v, axis=axes[0]) - 2 * half).max() > SAME * half:
+        return None
+    return np.concatenate([v.take([0], axes[0]) - half, v + half], axes[0]), axes[0]
 
 
 def pressure_coefficients(x, y, a, b, nu):

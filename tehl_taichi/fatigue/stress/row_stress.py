@@ -27,12 +27,15 @@ class RowStress:
     x, y, nu, line, mirrored, kind: as for :class:`tehl_taichi.fatigue.stress.half_space.HalfSpaceStress`; mirrored rows begin
     at y = 0. rows: their numbers. tables: :class:`tehl_taichi.fatigue.stress.kept_tables.KeptTables` that operators for other
     rows share, or None. If the surface is the only depth, three components are computed; the others are the loads themselves.
+    On the mirror's row alone xy and yz are zero.
     """
 
     def __init__(self, x, y, nu, line, mirrored, depths, rows, kind=DOUBLE, tables=None):
         self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
         self.n, self.size, self.rows_used, self.kind = self.x.size, even_fast_length(2 * self.x.size - 1), list(rows), kind
-        self.depths, self.tables, self.found = depths, tables, list(range(6) if np.any(depths) else HELD)
+        self.depths, self.tables, self.deep = depths, tables, bool(np.any(depths))
+        on_mirror = mirrored and self.rows_used == [0]
+        self.found = [n for n in (range(6) if self.deep else HELD) if not (on_mirror and ACROSS[n] < 0)]
         lags = np.arange(self.n) * spacing(self.x)
         self.strips = StripStress(self.x, self.nu, depths) if line else None
         self.rows = self._rows(lags, mirrored) if self.y.size > 1 else None
@@ -51,9 +54,9 @@ class RowStress:
         """Six components from the computed ones `found`; at the surface szz, sxz and syz are minus the loads."""
         if len(self.found) == 6:
             return found
-        out = np.empty((*found.shape[:-1], 6), found.dtype)
+        out = np.zeros((*found.shape[:-1], 6), found.dtype)
         out[..., self.found] = found
-        for component, load in zip(CARRIED, loads):
+        for component, load in () if self.deep else zip(CARRIED, loads):
             out[..., 0, component] = -load[..., self.rows_used]
         return out
 
