@@ -12,14 +12,17 @@ THICK = 0.01
 
 
 def of(scene):
-    """"f32" or "f64": the user's choice, or the suitable one. Raises SceneError for f32 and a film too thin for it."""
+    """"f32" or "f64": the user's choice, or the suitable one. Raises SceneError for f32 and a film too thin for it.
+
+    A scene without variation along y takes as long in double precision; so the cases of a study share one set of kernels.
+    """
     requested = scene.numerics.precision
     if requested == "f32" and suited(scene) != "f32":
         h = central_film(scene)
         raise SceneError(f"numerics.precision = 'f32': a film of about {h:.2g} m ({h / Scales.of(scene).h:.2g} a^2/R') is too "
                          f"thin for linear solves in single precision, which need at least {THICK:g} a^2/R'; allowed: auto, "
                          "f64")
-    return suited(scene) if requested == AUTO else requested
+    return requested if requested != AUTO else "f64" if scene.one_dimensional else suited(scene)
 
 
 def suited(scene):

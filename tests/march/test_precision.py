@@ -8,6 +8,7 @@ import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import NotConverged, SceneError
+from tehl_taichi.pressure import precision
 from tehl_taichi.scene import scene
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
@@ -37,10 +38,16 @@ def solved(description):
 
 
 def test_every_scene_runs_in_its_own_precision_in_any_order():
-    thick, thin = line(**{"grid.nx": 64}), line(**{"grid.nx": 64}, speed=0.6)
+    thick, thin = line(**{"grid.nx": 64, "numerics.precision": "f32"}), line(**{"grid.nx": 64}, speed=0.6)
     asked, tables, films = zip(*map(solved, (thick, thin, thick, thick.replace(**{"numerics.precision": "f64"}))))
     assert asked == tables == ("f32", "f64", "f32", "f64")
     assert films[0] == films[2] != films[3] and films[0] == pytest.approx(films[3], rel=1e-6)
+
+
+def test_lines_are_solved_in_double_so_that_a_study_has_one_set_of_kernels(taichi_cpu):
+    """Where nothing varies along y, single precision saves nothing."""
+    assert solved(line(**{"grid.nx": 64}))[:2] == ("f64", "f64")
+    assert precision.of(gear()) == "f32" == precision.of(line(**{"grid.nx": 64, "numerics.precision": "f32"}))
 
 
 def test_the_precision_can_be_asked_for():
