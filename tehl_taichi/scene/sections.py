@@ -397,8 +397,9 @@ class Numerics:
     krylov_tolerance: float = quantity(0.2, "", "largest tolerance of the linear solves inside Newton", 1e-6, 0.5)
     newton_max: int = count(30, "largest number of Newton steps of an attempt", 1, 1000)
     krylov_max: int = count(80, "largest number of Krylov iterations of a Newton step", 5, 500)
-    precision: str = choice(AUTO, "precision of the linear solves inside Newton; auto: f32 for thick films that vary "
-                                  "along y (f32 is refused for thin ones); the state and its residual are always double", (AUTO, "f32", "f64"))
+    precision: str = choice(AUTO, "precision of the linear solves inside Newton; auto: f32 for thick films that vary along y "
+                                  "(f32 is refused for thin ones); the state and its residual are always double",
+                            (AUTO, "f32", "f64"))
     sweep: str = choice("jacobi", "order of the lines in the linear solves: all at once, or alternating (red-black, slower; "
                                   "see docs/decisions/05-line-order.md)", ("jacobi", "red-black"))
     estimate_error: Union[bool, str] = switch(AUTO, "estimate errors by coarse-grid runs, in a seventh of the run time; auto: "
