@@ -3,7 +3,7 @@ uses; otherwise after the run, in its process.
 
 Default gear on both of two cores, s, medians of four in turn: 24.5 with coarse-grid runs after the run, 22.9 beside it (23.3 at
 nice 19). Without temperatures nothing is gained: 12.6 and 12.3. Searching before `until` is known, in the time of the passage,
-takes 1.1 s more: each kernel of the run then finds its cache used by another process.
+takes 1.1 s more.
 """
 
 import contextlib

@@ -1,4 +1,4 @@
-"""Companions beside their run: where a core is idle, the same answers, and nothing left behind."""
+"""Coarse-grid runs beside their run: the same answers, the time that the run leaves, and nothing left behind."""
 
 import contextlib
 import importlib

@@ -9,6 +9,7 @@ import numpy as np
 
 SAME = 1e-6  # of a half side, by which edges of neighbours may differ
 
+
 def _corners(F, x, y, a, b):
     """F summed over the corners of the rectangle |x| <= a, |y| <= b with alternating signs.
 

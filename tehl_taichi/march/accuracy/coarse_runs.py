@@ -1,6 +1,6 @@
 """Coarse-grid runs: the passage of a run on grids with a half and a quarter of the cells, for error bars.
 
-They take about a seventh of its time: after the run, with its tables and compiled kernels, or in the background on an idle core
+They take about a seventh of its time: after the run, with its tables and compiled kernels, or beside it in the background
 (:mod:`tehl_taichi.runs.background_errors`). They cannot harm the run: if one is refused or does not converge, the bar is
 unknown, with the reason.
 """
