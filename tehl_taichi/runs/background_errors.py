@@ -17,9 +17,11 @@ import tempfile
 import threading
 import time
 
+from tehl_taichi.disk import memory_limit
 from tehl_taichi.engine import cores, runtime
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.runs.sweep import job
+from tehl_taichi.scene import memory_demand
 
 WATCH = 0.5  # s between looks at whether the run is still there
 TELL = 1.0  # s between two words that the run waits for it
@@ -29,6 +31,7 @@ LONG = 5e6
 FEW = 4  # cores: with all of more of them a run makes its coarse-grid runs itself as fast
 WAITS = 0.25  # of its time, that a run waits for the process: on a machine with much other work it may never end
 LOWEST = 19  # priority where the system has no better one
+PROCESS, COARSE = 0.25e9, 0.25  # bytes of the process and its modules; its share of the memory of a run
 
 
 def threads_beside(threads):
@@ -47,10 +50,20 @@ def takes_long(scene):
     return coarse_runs.heavy_work(scene) >= LONG
 
 
+def has_room(scene):
+    """Whether there is memory for the run and the process beside it: without, the system would end one of them."""
+    needed = memory_demand.needed_bytes(scene)
+    if scene.runs_in:
+        from tehl_taichi.plastic import memory
+
+        needed += memory.needed_bytes(scene)
+    return (1 + COARSE) * needed + PROCESS <= memory_limit.SHARE * memory_limit.available()
+
+
 @contextlib.contextmanager
 def coarse_grid_runs(scene):
-    """Context manager for the coarse-grid runs of a scene: in the background if the run is long and leaves time of a core.
-    Enter it before the steady start, which uses one.
+    """Context manager for the coarse-grid runs of a scene: in the background if the run is long and leaves time of a core and
+    memory. Enter it before the steady start, which uses one core.
 
     Gives a function of `until` (the result of :func:`tehl_taichi.march.accuracy.coarse_runs.resolved`, once it is known). That
     function returns a function of notify(done, total), which returns the result of
@@ -58,7 +71,7 @@ def coarse_grid_runs(scene):
     background process ends with the context.
     """
     threads = threads_beside(runtime.ensure()["threads"])
-    if threads and coarse_runs.has_coarse_runs(scene) and takes_long(scene):
+    if threads and coarse_runs.has_coarse_runs(scene) and takes_long(scene) and has_room(scene):
         with _in_background(scene, threads) as with_until:
             yield with_until
     else:

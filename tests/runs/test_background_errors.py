@@ -10,10 +10,11 @@ import time
 
 import pytest
 
+from tehl_taichi.disk import memory_limit
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.runs import background_errors, single_run
 from tehl_taichi.runs.sweep import job
-from tehl_taichi.scene import scene
+from tehl_taichi.scene import memory_demand, scene
 
 SHORT = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 4, "fatigue.depths": (),
                                  "numerics.estimate_error": True})
@@ -104,6 +105,18 @@ def test_who_wants_none_has_no_process(idle_core, monkeypatch):
     monkeypatch.setattr(background_errors, "_started", no_process)
     with background_errors.coarse_grid_runs(SHORT.replace(**{"numerics.estimate_error": False})) as told:
         assert told(None).func is coarse_runs.answers
+
+
+def test_without_memory_for_both_they_are_after_the_run(idle_core, monkeypatch):
+    """A run in little memory must not be ended by the system because of them."""
+    needed, steel = 0.25e9 + 1.25 * memory_demand.needed_bytes(SHORT), SHORT.replace(**{
+        "time.run_in": 2, "time.steps": -1, "bodies.a.yield_stress": 2.2e9})
+    for there, beside in ((needed / 0.94, True), (needed / 0.96, False)):
+        monkeypatch.setattr(memory_limit, "available", lambda there=there: there)
+        assert background_errors.has_room(SHORT) == beside and not background_errors.has_room(steel)
+        monkeypatch.setattr(background_errors, "_started", sleeper if beside else no_process)
+        with background_errors.coarse_grid_runs(SHORT) as told:
+            assert (told(None).func is coarse_runs.answers) != beside
 
 
 def test_they_end_with_their_run(idle_core, nowhere, monkeypatch):
