@@ -20,14 +20,13 @@ class ContactAlone:
     f: np.ndarray
 
 
-def search(scene, reader, surface, tables=None):
+def search(scene, reader, surface):
     """The :class:`ContactAlone` of the body of `surface`, for the middle row of the contact and its whole passage.
 
     scene: its constants matter, its moments and features do not; reader: of a run, whose entry 0 is the steady start. Depths
-    below the surface are included unless fatigue.depths is empty. tables: a
-    :class:`tehl_taichi.fatigue.stress.kept_tables.KeptTables` that bodies on one grid share, or None.
+    below the surface are included unless fatigue.depths is empty.
     """
-    sweep = SteadySweep(scene, reader, surface, tables)
+    sweep = SteadySweep(scene, reader, surface)
     history = _histories(sweep, [0.0])[0]
     strength = sweep.strength
     local = strength.at(0.0)

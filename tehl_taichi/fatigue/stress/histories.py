@@ -47,7 +47,6 @@ class StressHistories:
     sought = Sought.ALL
     steel = True  # whether von Mises stresses are searched
     chosen_y = None  # positions y (m) of the rows that are searched below the surface, if these are chosen
-    tables = None  # KeptTables of unit loads that others share
     left = None  # residual stress by plastic flow: a :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`
 
     def __init__(self, scene, reader, positions, around=AROUND, surface=None, box=None, sought=Sought.ALL):

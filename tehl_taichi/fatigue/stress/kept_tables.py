@@ -1,4 +1,4 @@
-"""Tables of unit loads that are used again: for both bodies of one grid, and by windows for pointwise and averaged stresses."""
+"""Tables of unit loads that a run with windows uses again: for both bodies, for pointwise and averaged stresses."""
 
 BYTES = 1e8
 

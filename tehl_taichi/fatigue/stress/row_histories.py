@@ -118,7 +118,7 @@ def _operators(passage, depths, kinds):
     """List of (RowStress, rows of the loads it takes): one for all rows, and one for each row whose loads continue along y."""
     def made(y, rows):
         return RowStress(passage.grid_x, y, passage.surface.body.nu, passage.line, passage.mirrored, depths, rows,
-                         _kind(passage), passage.tables)
+                         _kind(passage))
 
     y = passage.reader.y
     plain = [row for row, endless in kinds if not endless]

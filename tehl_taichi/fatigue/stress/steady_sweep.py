@@ -26,14 +26,12 @@ class Steady:
 
 class SteadySweep(StressHistories):
     """Histories of one material point on the middle row that moves through the steady fields, one cell per moment; `positions`:
-    its coordinates (m). scene, reader, surface: as for the base class; tables: a KeptTables that bodies on one grid
-    share, or None.
+    its coordinates (m). scene, reader, surface: as for the base class.
     """
 
     block = 1  # one entry, which every moment reads
 
-    def __init__(self, scene, reader, surface, tables=None):
-        self.tables = tables
+    def __init__(self, scene, reader, surface):
         self.scene, self.surface, self.last_below, self.a = scene, surface, None, Scales.of(scene).a
         self.loads_of, self.strength = self._names(), Strength(scene.fatigue, surface)
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)

@@ -2,7 +2,6 @@
 
 from tehl_taichi.fatigue import contact_alone
 from tehl_taichi.fatigue.assessment import Snapshots
-from tehl_taichi.fatigue.stress.kept_tables import KeptTables
 from tehl_taichi.march.accuracy.coarse_runs import MISES
 from tehl_taichi.march.accuracy.domain_error import widened
 from tehl_taichi.march.accuracy.error_bars import GridReading, bars
@@ -19,13 +18,12 @@ def searches(scene, first):
     """
     if not scene.fatigue.on:
         return {}
-    grids = [(Snapshots([grid]), KeptTables()) for grid in (*first.coarser, first)]
-    found = {surface.name: _searched(scene, surface, first, grids) for surface in scene.judged}
+    found = {surface.name: _searched(scene, surface, first) for surface in scene.judged}
     return dict(sorted(found.items(), key=lambda one: -one[1]["Fi_max"]))
 
 
-def _searched(scene, surface, first, grids):
-    each = [contact_alone.search(scene, reader, surface, tables).summary for reader, tables in grids]
+def _searched(scene, surface, first):
+    each = [contact_alone.search(scene, Snapshots([grid]), surface).summary for grid in (*first.coarser, first)]
     found, reasons = bars([{name: GridReading(value, positive=True) for name, value in _values(one).items()} for one in each])
     if first.unsettled:
         found, reasons = (dict.fromkeys(found, one) for one in (None, Reason(first.unsettled, "unsettled")))
