@@ -22,7 +22,9 @@ def of(scene):
         raise SceneError(f"numerics.precision = 'f32': a film of about {h:.2g} m ({h / Scales.of(scene).h:.2g} a^2/R') is too "
                          f"thin for linear solves in single precision, which need at least {THICK:g} a^2/R'; allowed: auto, "
                          "f64")
-    return requested if requested != AUTO else "f64" if scene.one_dimensional else suited(scene)
+    if requested == AUTO:
+        return "f64" if scene.one_dimensional else suited(scene)
+    return requested
 
 
 def suited(scene):

@@ -20,6 +20,7 @@ import time
 from tehl_taichi.disk import memory_limit
 from tehl_taichi.engine import cores, runtime
 from tehl_taichi.march.accuracy import coarse_runs
+from tehl_taichi.runs.run_in_memory import run_in_bytes
 from tehl_taichi.runs.sweep import job
 from tehl_taichi.scene import memory_demand
 
@@ -39,8 +40,9 @@ def threads_beside(threads):
     had to wait, 8 of 16 cores), or what it leaves of one of a FEW. 0 on a single core, and in a worker of a study, because
     the other workers use the cores.
     """
-    idle = cores.available() - threads
-    if job.is_worker() or cores.available() == 1 or idle <= 0 and threads > FEW:
+    there = cores.available()
+    idle = there - threads
+    if job.is_worker() or there == 1 or idle <= 0 and threads > FEW:
         return 0
     return min(max(idle, 1), threads)
 
@@ -52,11 +54,7 @@ def takes_long(scene):
 
 def has_room(scene):
     """Whether there is memory for the run and the process beside it: without, the system would end one of them."""
-    needed = memory_demand.needed_bytes(scene)
-    if scene.runs_in:
-        from tehl_taichi.plastic import memory
-
-        needed += memory.needed_bytes(scene)
+    needed = memory_demand.needed_bytes(scene) + run_in_bytes(scene)
     return (1 + COARSE) * needed + PROCESS <= memory_limit.SHARE * memory_limit.available()
 
 

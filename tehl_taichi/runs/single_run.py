@@ -11,6 +11,7 @@ from tehl_taichi.errors import StoreError, interrupt
 from tehl_taichi.fatigue.pressure_alone import WITHOUT, searched, why_none
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress
+from tehl_taichi.runs.run_in_memory import run_in_bytes
 from tehl_taichi.runs.stored_run import Run
 from tehl_taichi.scene import Scene
 from tehl_taichi.store.load_scene import find
@@ -44,11 +45,7 @@ def _check_memory(scene):
     """Raise SceneError if a run of the scene needs more memory than is available."""
     from tehl_taichi.scene import memory_demand
 
-    if not scene.runs_in:
-        return memory_demand.check(scene)
-    from tehl_taichi.plastic import memory
-
-    memory_demand.check(scene, memory.needed_bytes(scene))
+    memory_demand.check(scene, run_in_bytes(scene))
 
 
 def open(path: str | PathLike, stand_in: bool = False) -> Run:

@@ -56,8 +56,9 @@ class RowStress:
             return found
         out = np.zeros((*found.shape[:-1], 6), found.dtype)
         out[..., self.found] = found
-        for component, load in () if self.deep else zip(CARRIED, loads):
-            out[..., 0, component] = -load[..., self.rows_used]
+        if not self.deep:
+            for component, load in zip(CARRIED, loads):
+                out[..., 0, component] = -load[..., self.rows_used]
         return out
 
     def _waves(self, entries, far):
