@@ -199,7 +199,7 @@ def _finish(saved, state, steady, clock, progress, coarse_answers_until):
     steel = _run_in_part(saved.scene, run_in) if run_in else {}
     _add_contact_alone(found, steady["steady_contact_alone"])
     sure = {name: one for name, one in found.items() if not why_none(one)}
-    domain = DomainError.from_values(steady["steady_domain"])
+    domain = DomainError.from_values(steady["steady_domain"]).of_passage(saved.scene, saved)
     notify = functools.partial(progress.stage, ERRORS)
     passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain, steel.get("run_in"))
     if saved.scene.zooms and len(saved) > 2:
@@ -208,7 +208,8 @@ def _finish(saved, state, steady, clock, progress, coarse_answers_until):
         passage, found, arrays = zoomed_run.refined(saved, passage, alone if sure else None, domain, progress)
         _add_contact_alone(found, steady["steady_contact_alone"])
     arrays = _with_steel(run_in, found, arrays) if run_in else arrays
-    saved.finish(summarise(saved, {**clock.times(), **steady, **passage, **steel}, found), arrays)
+    extra = {**clock.times(), **steady, **passage, **steel, "passage_sides": domain.sides}
+    saved.finish(summarise(saved, extra, found), arrays)
     return Run(saved)
 
 

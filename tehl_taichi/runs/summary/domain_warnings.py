@@ -1,5 +1,8 @@
 """Warnings about a domain that is too small: sentences from (store, summary)."""
 
+import math
+
+from tehl_taichi.march.accuracy.domain_error import SIDES
 from tehl_taichi.scene import domain
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import Option
@@ -27,6 +30,21 @@ def starved(store, summary):
     if g.inlet == "starved" and lost > MUCH:
         yield (f"grid.inlet = starved: the oil begins at {-g.x_min:g} a, which takes about {lost:.0%} of the film of a flooded "
                "inlet")
+
+
+def near_sides(store, summary):
+    """Warning if the sides of a line contact are so near to its features that their part of the errors is large."""
+    change, g = summary.get("domain", {}).get("side_change", 0.0), store.scene.grid
+    if SIDES * change <= MUCH:
+        return
+    # the change falls with the square of the distance (1.5 um asperity of the gear: 3.2, 0.8, 0.1 % at 0.5, 1, 3 b)
+    y_max = math.ceil(2 * g.y_max * math.sqrt(SIDES * change / MUCH)) / 2
+    grid = domain.same_cells(store.scene, y_max=y_max)
+    side = f"grid.y_max={y_max:g}"
+    option = Option(f"; --set {side} {grid} (same cells)", f"; {side} and {grid.words} (same cells)")
+    yield with_data(f"the features change the film at the sides of the domain (grid.y_max = {g.y_max:g} b) by {change:.1%}; "
+                    f"the sides may change the numbers of the passage by {SIDES * change:.1%}{option}", option,
+                    part=SIDES * change)
 
 
 def _farther(scene, steady):

@@ -26,7 +26,8 @@ def summarise(store, extra, searches=None):
     extra: wall_s; compile_s (kernels traced, compiled or loaded); crowding (see :func:`tehl_taichi.engine.task_pool.crowding`,
     of this run; optional); steady_error, steady_unknown, steady_parts and steady_domain (see
     :class:`tehl_taichi.march.snapshot.Snapshot`); steady_contact_alone (see
-    :func:`tehl_taichi.march.accuracy.contact_alone_bars.searches`); passage_error, passage_unknown and passage_parts; zoom (see
+    :func:`tehl_taichi.march.accuracy.contact_alone_bars.searches`); passage_error, passage_unknown and passage_parts;
+    passage_sides (:func:`tehl_taichi.march.accuracy.side_change.side_change`); zoom (see
     :func:`tehl_taichi.runs.zoomed_run.summary`) and run_in (see :mod:`tehl_taichi.plastic.run_in_numbers`), both optional.
     searches: {surface: summary of its fatigue search}, the worse one first, or None.
     """
@@ -35,7 +36,7 @@ def summarise(store, extra, searches=None):
     out = {"scene": scene.name, "version": __version__, "store": str(store.path), "converged": True,
            "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
            **grid_counts(store),
-           "hertz": _hertz(scales), **_peclet(scene, scales), "domain": domain_of(scene),
+           "hertz": _hertz(scales), **_peclet(scene, scales), "domain": {**domain_of(scene), **_sides(extra)},
            "left_out": scene.left_out(),
            "steady": _steady(store, extra)}
     out |= _roughness(scene, out["steady"])
@@ -107,6 +108,11 @@ def domain_of(scene):
     g = scene.grid
     ends = {"x_min_a": float(g.x_min), "x_max_a": float(g.x_max), "y_max_b": float(g.y_max)}
     return {**ends, "auto": isinstance(g.x_min, AutomaticValue)}
+
+
+def _sides(extra):
+    """Change of the film at the sides of the domain, if features cause any."""
+    return {"side_change": extra["passage_sides"]} if extra.get("passage_sides") else {}
 
 
 def _clamps(store):
