@@ -19,11 +19,11 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
           **options: Any) -> "CrackResult":
     """Compute crack paths: see :func:`tehl_taichi.crack`."""
     from tehl_taichi.crack.analysis import run
-    from tehl_taichi.crack.crack_options import CrackOptions
+    from tehl_taichi.crack.crack_options import options_of
     from tehl_taichi.engine import runtime
     from tehl_taichi.fatigue.overrides import agreed, changed, reader_of
 
-    chosen, reader = CrackOptions(**options), reader_of(of, "crack")
+    chosen, reader = options_of(options), reader_of(of, "crack")
     scene = changed(agreed(scene, reader), {"thermal_stress": thermal_stress})
     runtime.start_or_join(threads=threads)
     return run(scene, reader, chosen)

@@ -1,12 +1,14 @@
 """Options of a crack: its start, its largest length, the loads on its faces."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Union
 
 from tehl_taichi.crack.fillings import FILLINGS
 from tehl_taichi.crack.residual_stress import ResidualStress
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.moving_surfaces import NAMES
+from tehl_taichi.values.checks import known_names, nearest
+from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.quantity import Choice, Number, check, choice, count, quantity
 
 SIDES = ("entry", "exit")
@@ -73,3 +75,11 @@ class CrackOptions:
         if self.side == "both" and self.start is not None:
             return SIDES[self.start >= 0 :][:1]
         return SIDES if self.side == "both" else (self.side,)
+
+
+def options_of(given):
+    """CrackOptions from {name: value}. Raises SceneError, also for an unknown name."""
+    known = [field.name for field in fields(CrackOptions)]
+    for name in given.keys() - set(known):
+        raise SceneError(f"unknown option {shown(name)}{nearest(name, known)}; {known_names(known, 'tehl_taichi.crack')}")
+    return CrackOptions(**given)

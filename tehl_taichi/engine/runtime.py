@@ -21,6 +21,7 @@ ARCHES = ("cpu", "cuda", "vulkan")  # that the kernels have been checked on
 DRIVER = "libcuda.so.1"
 MOST_THREADS = 1024
 _started = {}
+_starting = threading.RLock()  # Taichi's own start is not safe in two threads at once
 _home = None  # (process, thread) that Taichi was started in
 WORTH_THREADS = 2500
 _grown = 1
@@ -112,9 +113,10 @@ def start(arch=None, threads=None):
     """
     check(arch, threads)
     arch, threads = chosen(arch), int(threads or cores.available())
-    if _started:
-        return _same_start(arch, threads)
-    _start(arch, threads)
+    with _starting:
+        if _started:
+            return _same_start(arch, threads)
+        _start(arch, threads)
     return dict(_started)
 
 

@@ -27,6 +27,8 @@ from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.worst_point import worst_of
 from tehl_taichi.scene import SceneError, fatigue_limits, rough_surfaces
+from tehl_taichi.values.checks import number
+from tehl_taichi.values.coerce import plain
 
 NO_BOXES = MappingProxyType({})  # all points are searched
 PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
@@ -157,6 +159,7 @@ def _early(passage, until):
     """
     if until is None:
         return None
+    number("until", plain(until), "a", infinite=True)
     first = np.flatnonzero(passage.positions <= (until + 1e-9) * passage.a)
     return np.append(first, passage.positions.size) if 1 < first.size < passage.positions.size else None
 

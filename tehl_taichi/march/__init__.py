@@ -21,11 +21,15 @@ def march(scene: "Scene | str", state: dict | None = None, precision: str | None
     from tehl_taichi.errors import SceneError
     from tehl_taichi.march.passage import march as run
     from tehl_taichi.scene.builtin import scene_or_builtin
+    from tehl_taichi.values.coerce import shown
 
     scene = scene_or_builtin(scene)
-    if state is not None and (found := tuple(state["P"].shape)) != (nodes := (scene.rows + 1, scene.grid.nx + 1)):
-        raise SceneError(f"the state has {found[1]} x {found[0]} nodes, the scene {nodes[1]} x {nodes[0]}; it belongs to "
-                         "another scene")
+    if state is not None:
+        if not isinstance(state, dict) or "P" not in state:
+            raise SceneError(f"state = {shown(state)} is not the state of a snapshot; allowed: `snapshot.state` of this scene")
+        if (found := tuple(state["P"].shape)) != (nodes := (scene.rows + 1, scene.grid.nx + 1)):
+            raise SceneError(f"the state has {found[1]} x {found[0]} nodes, the scene {nodes[1]} x {nodes[0]}; it belongs to "
+                             "another scene")
     return run(scene if precision is None else scene.replace(**{"numerics.precision": precision}), state)
 
 

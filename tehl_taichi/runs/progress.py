@@ -5,12 +5,25 @@ import math
 import sys
 import time
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.pace import Pace
+from tehl_taichi.values.coerce import shown
 
 STAGES = "steady start", "passage", "zoom", "stresses and fatigue", "coarse-grid runs"
 STEADY, PASSAGE, ZOOM, FATIGUE, ERRORS = STAGES
 LATE = ZOOM, FATIGUE, ERRORS  # stages after the last step, of minutes on fine grids
 TOLD = 0.1  # of such a stage, from which on the time left is shown: its first parts, tables, take longer than the others
+
+
+def progress_of(given):
+    """The given progress, or one that ignores everything for None. Raises SceneError for an object without its methods."""
+    if given is None:
+        return Progress()
+    lacks = [name for name, method in vars(Progress).items() if callable(method) and not callable(getattr(given, name, None))]
+    if lacks:
+        raise SceneError(f"progress = {shown(given)} has no method {lacks[0]}; allowed: an object derived from "
+                         "tehl_taichi.Progress, or None")
+    return given
 
 
 class Progress:

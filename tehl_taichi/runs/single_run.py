@@ -10,11 +10,12 @@ from pathlib import Path
 from tehl_taichi.errors import StoreError, interrupt
 from tehl_taichi.fatigue.pressure_alone import WITHOUT, searched, why_none
 from tehl_taichi.runs import run_in_stage
-from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress
+from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress, progress_of
 from tehl_taichi.runs.run_in_memory import run_in_bytes
 from tehl_taichi.runs.stored_run import Run
 from tehl_taichi.scene import Scene
 from tehl_taichi.store.load_scene import find
+from tehl_taichi.values.checks import flag
 from tehl_taichi.values.coded_warning import texts
 from tehl_taichi.values.path_arguments import folder_of, path_of
 
@@ -22,7 +23,8 @@ from tehl_taichi.values.path_arguments import folder_of, path_of
 def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, force: bool = False, threads: int | None = None,
         arch: str | None = None, progress: Progress | None = None) -> Run:
     """Run a scene: see :func:`tehl_taichi.run`."""
-    return _run(find(scene), path, force, threads, arch, progress or Progress())
+    flag("force", force)
+    return _run(find(scene), path, force, threads, arch, progress_of(progress))
 
 
 def _run(scene, path, force, threads, arch, progress, case=False):
@@ -68,7 +70,7 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
 
     if steps is not None:
         integer("steps", steps, 1, 10**7)
-    before, progress = open(path), progress or Progress()
+    before, progress = open(path), progress_of(progress)
     path = before.path
     rest = before.rest(steps)
     if rest is None:
@@ -85,7 +87,7 @@ def run_or_resume(scene: Scene, path: str | PathLike, *, threads: int | None = N
     from tehl_taichi.store.integrity import is_store
 
     if not is_store(path):
-        return _run(scene, path, False, threads, None, progress or Progress(), case=True)
+        return _run(scene, path, False, threads, None, progress_of(progress), case=True)
     there = open(path)
     check_version(path, there)
     if there.scene != scene:
@@ -114,9 +116,8 @@ def continued(path, scene, threads, began, progress):
         runtime.start_or_join(threads=threads)
         state = saved.go_back()
         clock = _Clock(began, _spent(saved))
-        if scene != saved.scene:
-            saved.extend(scene)
-        with background_errors.coarse_grid_runs(scene) as coarse_answers_until:
+        longer = saved.extended(scene) if scene != saved.scene else contextlib.nullcontext()
+        with longer, background_errors.coarse_grid_runs(scene) as coarse_answers_until:
             return _finish(saved, state, steady, clock, progress, coarse_answers_until)
 
 
@@ -205,7 +206,8 @@ def _finish(saved, state, steady, clock, progress, coarse_answers_until):
     if saved.scene.zooms and len(saved) > 2:
         from tehl_taichi.runs import zoomed_run
 
-        passage, found, arrays = zoomed_run.refined(saved, passage, alone if sure else None, domain, progress)
+        passage, finer, more = zoomed_run.refined(saved, passage, alone if sure else None, domain, progress)
+        found, arrays = (finer, more) if sure else (found, {**(arrays or {}), **more})
         _add_contact_alone(found, steady["steady_contact_alone"])
     arrays = _with_steel(run_in, found, arrays) if run_in else arrays
     extra = {**clock.times(), **steady, **passage, **steel, "passage_sides": domain.sides}

@@ -6,7 +6,7 @@ from tehl_taichi.march.zoom.read_once import ReadOnce
 from tehl_taichi.march.zoom.zoomed_passage import ZoomedPassage
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
 from tehl_taichi.runs import zoomed_points, zoomed_run
-from tehl_taichi.runs.progress import Progress
+from tehl_taichi.runs.progress import progress_of
 from tehl_taichi.view.zoom_window import EXTREMES, ZoomWindow
 
 
@@ -20,7 +20,7 @@ def refined(store, scene, alone, progress=None, until=None):
     if not windows or not windows[0].entries.size:
         return alone
     reader = ZoomedReader(ReadOnce(store), [_passage(window) for window in windows], scene.symmetric)
-    found = zoomed_run.searched(store, scene, reader, zoomed_points.ends(scene, alone), progress or Progress(), until)
+    found = zoomed_run.searched(store, scene, reader, zoomed_points.ends(scene, alone), progress_of(progress), until)
     return _with_summaries(zoomed_points.deeper(found, alone), _completed(found.summaries, alone.summaries))
 
 

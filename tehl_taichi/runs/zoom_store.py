@@ -5,7 +5,7 @@ from os import PathLike
 
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.runs import single_run
-from tehl_taichi.runs.progress import Progress
+from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.stored_run import Run
 from tehl_taichi.scene import refinement
 from tehl_taichi.values.quantity import AUTO
@@ -14,11 +14,11 @@ from tehl_taichi.values.quantity import AUTO
 def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = None, progress: Progress | None = None) -> Run:
     """Add a window: see :func:`tehl_taichi.zoom`."""
     if factor == AUTO:
-        return _zoom_as_needed(path, threads, progress or Progress())
+        return _zoom_as_needed(path, threads, progress_of(progress))
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
 
-    before, progress = single_run.open(path), progress or Progress()
+    before, progress = single_run.open(path), progress_of(progress)
     if not before.finished:
         raise StoreError(f"{before.path} is not finished: use tehl resume {before.path} first")
     scene = before.scene.replace(**{"zoom.factor": factor})

@@ -3,6 +3,7 @@
 from typing import Any
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.scene.tables import as_changes
 from tehl_taichi.scene.unit_texts import in_units
 from tehl_taichi.values.coerce import plain, shown
 
@@ -28,17 +29,17 @@ def full_name(key):
 
 
 def resolve(given):
-    """Resolve changes (words, key, value) to {full key: value}; words: text that the user typed.
+    """Resolve changes (words, key, value) to {full key: value}, of a table the values in it; words: text that the user typed.
 
     Raises SceneError, with the words of both, if two changes contradict each other.
     """
     found: dict[str, tuple[str, Any]] = {}
     for words, key, value in given:
         key = full_name(key)
-        value = in_units(plain(value), key)
-        if key in found and found[key][1] != value:
-            _contradict(found[key][0], words)
-        found[key] = words, value
+        for full, one in as_changes({key: in_units(plain(value), key)}):
+            if full in found and found[full][1] != one:
+                _contradict(found[full][0], words)
+            found[full] = words, one
     for groups in EXCLUSIVE:
         chosen = [[found[key][0] for key in group if key in found and _is_given(key, found[key][1])] for group in groups]
         spoken = [texts[0] for texts in chosen if texts]

@@ -458,7 +458,7 @@ class Scene:
         changes = aliases.resolve_named(changes)
         changed = Scene.from_dict(overrides.apply_changes(self.to_dict(), changes))
         overrides.check_effect(changed, changes)
-        return changed.with_user_keys(idle_keys.user_keys(self) | changes.keys())
+        return changed.with_user_keys(idle_keys.user_keys(self) | idle_keys.changed_keys(changed, changes))
 
     def with_user_keys(self, keys):
         """This scene, with a record of the keys that the user gave (see :mod:`tehl_taichi.scene.idle_keys`)."""

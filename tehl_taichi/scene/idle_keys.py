@@ -292,6 +292,23 @@ def _steel(scene):
 RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _strength, _zoom, _steel, _across)
 
 
+def changed_keys(scene, changes):
+    """Full keys that the changes {full key: value} of a scene give; a value may be a whole part: features, an oil, a body."""
+    parts, found = keys.parts(scene), set()
+    for key, value in changes.items():
+        each = {f"feature.{n}": one for n, one in enumerate(value)} if key == "feature" else {key: value}
+        for name, one in each.items():
+            found |= _keys_of(name, parts[name], one) if name in parts else {name}
+    return found
+
+
+def _keys_of(name, part, value):
+    """Full keys given by a table or an object for a part of a scene; of one with all keys, those with an unusual value."""
+    values, names = value if isinstance(value, dict) else vars(value), kinds(type(part))
+    whole = names.keys() <= values.keys()
+    return {f"{name}.{key}" for key in names if key in values and not (whole and values[key] == getattr(type(part), key))}
+
+
 def given_keys(scene, tables):
     """Names of the keys that the nested tables of a scene file give.
 

@@ -7,17 +7,15 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import aliases, data_sheet, fatigue_limits, idle_keys, keys
 from tehl_taichi.scene import named_oils as oils
 from tehl_taichi.scene.named_steels import STEELS
-from tehl_taichi.scene.sections import SECTIONS
 from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.scene.strength import scene_tables
+from tehl_taichi.scene.tables import TABLES, as_changes
 from tehl_taichi.scene.timeline import ALL
 from tehl_taichi.values.checks import ALL_KEYS, key_shown, known_names, nearest
 from tehl_taichi.values.coerce import plain, shown, text_of
 from tehl_taichi.values.quantity import kinds
 
-TABLES = (*SECTIONS, "bodies", "oil")
-BODIES = ("bodies.a", "bodies.b")
-NESTED, TOP = (*TABLES, *BODIES), (*TABLES, "feature", "name", "note")
+TOP = (*TABLES, "feature", "name", "note")
 
 
 def apply_changes(data, changes):
@@ -41,24 +39,7 @@ def apply_changes(data, changes):
 def merge(base, data):
     """Apply the tables of a scene file as changes to `base` (all values of a scene as nested dictionary). Raises SceneError."""
     known = {key: value for key, value in data.items() if key in TOP}
-    return {**apply_changes(base, dict(_as_changes(known))), **{key: data[key] for key in data.keys() - known.keys()}}
-
-
-def _as_changes(tables, above=""):
-    """Tables of a file as changes (full key, value). An oil or a body with its own name or data sheet is one value: it does not
-    inherit numbers of the base.
-    """
-    for key, value in tables.items():
-        if isinstance(value, dict) and above + key in NESTED and not _brings_its_numbers(above + key, value):
-            yield from _as_changes(value, f"{above}{key}.")
-        else:
-            yield above + key, value
-
-
-def _brings_its_numbers(key, table):
-    if key == "oil":
-        return "name" in table or data_sheet.has_sheet(table)
-    return key in BODIES and isinstance(table.get("material"), str) and table["material"] != ""
+    return {**apply_changes(base, dict(as_changes(known))), **{key: data[key] for key in data.keys() - known.keys()}}
 
 
 def _table(data, key):
@@ -71,10 +52,10 @@ def check_effect(scene, changes):
     """Refuse changes that other keys of the changed scene override, or that belong to another law or shape. Raises
     SceneError.
     """
-    strange = idle_keys.idle_warnings(scene)
-    for key in changes:
-        if key in strange:
-            raise SceneError(f"{aliases.words(idle_keys.short_key(key, scene), changes[key])} has no effect: {strange[key]}")
+    strange, changed = idle_keys.idle_warnings(scene), idle_keys.changed_keys(scene, changes)
+    for key, _, value in keys.every(scene):
+        if key in strange and key in changed:
+            raise SceneError(f"{aliases.words(idle_keys.short_key(key, scene), value)} has no effect: {strange[key]}")
 
 
 def _clear(data, changes):

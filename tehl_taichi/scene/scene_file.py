@@ -73,7 +73,7 @@ def from_data(data, name, changes=()):
     overrides.check_effect(found, changes)
     if not changes.keys() & set(aliases.LOADS):
         _check_speed(found, u_m)
-    return found.with_user_keys(idle_keys.given_keys(found, own) | changes.keys())
+    return found.with_user_keys(idle_keys.given_keys(found, own) | idle_keys.changed_keys(found, changes))
 
 
 def _tables(data):

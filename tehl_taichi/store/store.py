@@ -151,12 +151,28 @@ class Store(LockedFolder, Reader):
                 self._commit(steps=number)
         return state
 
+    @contextlib.contextmanager
+    def extended(self, scene):
+        """Context manager: :meth:`extend`. After an error (no interruption) inside it the run is finished as it was, if no step
+        was added.
+        """
+        before = self.scene, self.attrs, dict(self.metadata)
+        self.extend(scene)
+        try:
+            yield
+        except Interrupted:
+            raise
+        except Exception:
+            if self.steps == before[1]["steps"] and not self.attrs["finished"]:
+                self.scene, self.attrs, self.metadata = before
+                self._commit()
+            raise
+
     def extend(self, scene):
         """Extend a finished run: `scene` differs only in its end; the results are removed."""
         for name in integrity.optional_value(self.attrs, "results", []):
             self.metadata.pop(name, None)
-        self.scene = scene
-        self.attrs.pop("summary", None)
+        self.scene, self.attrs = scene, {name: value for name, value in self.attrs.items() if name != "summary"}
         with _disk_errors(self.path, f"then use: tehl resume {self.path}"):
             self._commit(scene=json.dumps(scene.to_dict()), scene_toml=scene_file.dumps(scene), results="[]", finished=False,
                          **texts(scene.warnings()))

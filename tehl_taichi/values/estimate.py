@@ -1,5 +1,6 @@
 """A number with its error bar, unit, and the reason if the error is not known."""
 
+import math
 from dataclasses import dataclass
 
 from tehl_taichi.values.digits import printed_unit, with_error
@@ -12,7 +13,7 @@ class Quantity:
     Attributes
     ----------
     value : float
-          In SI units (temperatures in deg C).
+          In SI units (temperatures in deg C); nan if there is none, for the `reason`.
     error : float or None
           Estimated discretisation error, in the same unit; None if it is unknown.
     unit : str
@@ -43,12 +44,17 @@ class Quantity:
     def __float__(self):
         return float(self.value)
 
+    def __format__(self, spec):
+        return format(self.value, spec) if spec else str(self)
+
     @property
     def relative(self):
         """Error over value; None if one of them is unknown or the value is 0."""
         return None if self.error is None or not self.value else abs(self.error / self.value)
 
     def __str__(self):
+        if math.isnan(self.value):
+            return f"no value ({self.reason})"
         factor, unit = printed_unit(self.unit, self.value)
         unit = {"degC": "°C"}.get(unit, unit)
         if self.error is not None:

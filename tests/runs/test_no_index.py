@@ -50,3 +50,10 @@ def test_every_view_says_so(run, tmp_path):
 def test_a_limited_stress_keeps_its_index(taichi_cpu, tmp_path):
     run = tehl.run(tehl.scene("gear").replace(srr=-0.12, **{**NEWTONIAN, "rheology.law": "limiting"}), tmp_path / "index.zarr")
     assert run.summary["fatigue"]["Fi_max"] > 0 and "pressure_alone" not in run.summary["fatigue"]
+
+
+def test_no_crack_follows_from_shear_that_no_oil_carries(run):
+    for options in ({}, {"surface": "a"}):
+        with pytest.raises(tehl.SceneError, match="no crack follows from this run: the friction"):
+            tehl.crack(run, **options)
+    assert run["Fi_max"].reason.startswith("the friction") and run["Fi_max"].value != run["Fi_max"].value

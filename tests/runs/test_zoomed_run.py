@@ -1,6 +1,7 @@
 """Runs with a fine window: numbers, bars, what is stored, and windows that are added to a finished run."""
 
 import json
+import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi.errors import Interrupted
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.report import chain_plot
@@ -233,3 +235,41 @@ def test_two_windows_are_stored_and_searched_again(of_both, with_two, folder):
     for name, stored in whole.summary["fatigue_by_surface"].items():
         for now, there in ((again[name], stored), (again[name]["below"], stored["below"])):
             assert now["Fi_max"] == pytest.approx(there["Fi_max"], rel=1e-6) and now["x_m"] == pytest.approx(there["x_m"])
+
+
+@pytest.fixture(scope="module")
+def without_verdict(folder):
+    """A short run whose film has more shear than any oil, on a grid that a window would fill."""
+    changes = {"grid.nx": 64, "thermal.on": False, "time.steps": 4, "numerics.estimate_error": False}
+    return tehl.run(tehl.scene("furrow-line").replace(**changes), folder / "none.zarr")
+
+
+def test_a_window_as_large_as_the_grid_keeps_the_missing_verdict(without_verdict):
+    before = without_verdict.summary["fatigue"]
+    run = tehl.zoom(without_verdict.path, 2)
+    width = run.scene.grid.x_max - run.scene.grid.x_min
+    assert run.summary["zoom"]["window_a"][0] >= width and run.summary["zoom"]["p_max_Pa"] > 0
+    after = run.summary["fatigue"]
+    assert after["Fi_max"] is None and after["unknown"] == before["unknown"]
+    assert after["pressure_alone"]["Fi_max"] == before["pressure_alone"]["Fi_max"]
+
+
+@pytest.mark.parametrize("error, finished", [(tehl.NotConverged("a step failed"), True), (ValueError("a bug"), True),
+                                             (KeyboardInterrupt(), False), (Interrupted("full disk"), False)])
+def test_a_window_that_fails_leaves_the_run_as_it_was(plain, folder, monkeypatch, error, finished):
+    from tehl_taichi.runs import single_run
+
+    def fail(*_):
+        raise error
+
+    path = shutil.copytree(plain.path, folder / f"{type(error).__name__}.zarr")
+    with monkeypatch.context() as failing, pytest.raises(BaseException, match=str(error) or None):
+        failing.setattr(single_run, "_finish", fail)
+        tehl.zoom(path, 2)
+    after = tehl.open(path)
+    assert after.finished == finished
+    if finished:
+        assert numbers(after.summary) == numbers(plain.summary) and after.scene == plain.scene
+        np.testing.assert_array_equal(after.store.map("Fi"), plain.store.map("Fi"))
+    else:
+        assert after.scene.zoom.factor == 2

@@ -64,8 +64,8 @@ class ZoomedReader:
         if name not in EXTREMES:
             return np.max(found)
         field, extreme = EXTREMES[name]
-        outside = overlap.outside([one.placed(n) for one in there]).T
-        return extreme([extreme(self.base.fields(n, (field,))[field][outside]), *found])
+        outside = self.base.fields(n, (field,))[field][overlap.outside([one.placed(n) for one in there]).T]
+        return extreme([*found, *outside])  # nothing is outside a window as large as the grid
 
     def fields(self, n, names):
         """{name: (fine nodes along x, fine nodes along y)} of entry n, SI units."""

@@ -17,7 +17,7 @@ from tehl_taichi.runs.bearing.static_safety import LIMITS, safety
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.flank.flank_run import first_free_folder
 from tehl_taichi.runs.flank.outcomes import summaries
-from tehl_taichi.runs.progress import Progress
+from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.scene import Scene, grid_for_features, scene_file
 from tehl_taichi.scene.aliases import resolve, words
 from tehl_taichi.scene.feature import Feature
@@ -73,7 +73,7 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     made.write()
     write_scenes(target, rings)
     for case in (case for case in rings.values() if case.grid):
-        (progress or Progress()).say(case.grid)
+        progress_of(progress).say(case.grid)
     if workers is None and threads is None and passing:
         workers = 1  # all cores for the passage, which takes minutes, the other ring seconds
     return _run(made, rings, workers, threads, progress) if run else made

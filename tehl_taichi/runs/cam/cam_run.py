@@ -9,7 +9,7 @@ from tehl_taichi.runs.cam.stored_cam import Cam
 from tehl_taichi.runs.flank.flank_run import first_free_folder
 from tehl_taichi.runs.flank.line_contacts import scene_at, scene_with_grid_at
 from tehl_taichi.runs.flank.outcomes import summaries
-from tehl_taichi.runs.progress import Progress
+from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.scene import Scene, grid_for_features
 from tehl_taichi.scene import scene as built_in
 from tehl_taichi.scene.aliases import resolve, words
@@ -44,7 +44,7 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     target = path_of("folder", folder) if folder else first_free_folder(path.stem)
     Cam.check_writable(target)
     for grid in (grid for _, grid in found.values() if grid):
-        (progress or Progress()).say(grid)
+        progress_of(progress).say(grid)
     return _run(Cam(target, cam_record(path, target, places, scenes)), scenes, workers, threads, progress)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.runs import passages_left, single_run
-from tehl_taichi.runs.progress import Progress
+from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.single_run import check_version
 from tehl_taichi.runs.sweep import case, pool
 from tehl_taichi.values.coded_text import code_of
@@ -35,7 +35,7 @@ def summaries(scenes, folder, workers=None, threads=None, progress=None):
     workers, threads = pool.sizes(workers, threads, jobs=len(todo))
     pool.check(workers, threads)
     yield from done.items()
-    progress = _KindsOnce(progress or Progress())
+    progress = _KindsOnce(progress_of(progress))
     yield from _run(places, todo, workers, threads, progress)
     progress.stage(STAGE, len(places), len(places))
 

@@ -1,5 +1,7 @@
 """All numbers of a summary by their full names, with error, unit, and the reason of an unknown error."""
 
+import math
+
 from tehl_taichi.errors import UnknownName
 from tehl_taichi.values.checks import known_names, nearest
 from tehl_taichi.values.coerce import shown
@@ -8,10 +10,13 @@ from tehl_taichi.values.summary_units import unit_of, without_unit
 
 FIRST = ("transient", "steady", "fatigue")  # parts whose numbers are meant by a name without its part, in this order
 BARS = ("error", "unknown", "unknown_codes", "error_parts")  # of a part: not numbers themselves
+ALONE = {"pressure_alone", "contact_alone", "contact_alone_by_surface"}  # numbers of something else: found by their part only
 
 
 def all_numbers(summary):
-    """{full name, such as "transient.p_max_Pa": Quantity} of all numbers of a summary."""
+    """{full name, such as "transient.p_max_Pa": Quantity} of all numbers of a summary; nan with the reason for one that has no
+    value.
+    """
     return dict(_numbers(summary, ""))
 
 
@@ -19,6 +24,8 @@ def _numbers(values, above):
     for key, value in values.items():
         if isinstance(value, dict) and key not in BARS:
             yield from _numbers(value, f"{above}{key}.")
+        elif value is None and key in values.get("unknown", {}):
+            yield above + key, Quantity(math.nan, None, unit_of(key), values["unknown"][key], above + key)
         elif isinstance(value, (int, float)) and not isinstance(value, bool):
             error, why = values.get("error", {}).get(key), ""
             if error is None and key in values.get("error", {}):
@@ -31,8 +38,9 @@ def find(summary, name):
     known = all_numbers(summary)
     fitting = _fitting(known, name)
     if not fitting:
-        raise UnknownName(f"{shown(name)} is no number of this run{nearest(name, _short(known))}; "
-                          f"{known_names(known, 'list(run)')}")
+        meant = [min(_names(full), key=len) for full in sorted(known, key=_order) if name in _keys(full)]
+        hint = f" (did you mean {meant[0]!r}?)" if meant else nearest(name, _short(known))
+        raise UnknownName(f"{shown(name)} is no number of this run{hint}; {known_names(known, 'list(run)')}")
     return known[min(fitting, key=_order)]
 
 
@@ -48,13 +56,19 @@ def _fitting(known, name):
 
 def _names(full):
     """All short names of a full one."""
-    part, _, key = full.rpartition(".")
-    keys = {key, without_unit(key)}
-    return keys | {f"{part}.{one}" for one in keys}
+    part, keys = full.rpartition(".")[0], _keys(full)
+    return {f"{part}.{one}" for one in keys} | (set() if ALONE & set(part.split(".")) else keys)
+
+
+def _keys(full):
+    """The name of a number without its part, with and without its unit."""
+    key = full.rpartition(".")[2]
+    return {key, without_unit(key)}
 
 
 def _short(known):
-    return {without_unit(full.rpartition(".")[2]) for full in known}
+    """The shortest name of each number."""
+    return {min(_names(full), key=len) for full in known}
 
 
 def _order(full):
