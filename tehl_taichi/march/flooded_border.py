@@ -26,6 +26,7 @@ def between_blocks(solver, border):
     def solve():
         if border is not None and FIRST <= next(blocks) < LAST:
             border.move(BETWEEN)
+            solver.share_load()
         return solve_again(solver)
 
     return solve
@@ -35,7 +36,7 @@ def iterate_border(solver, border, report):
     """Iterate film and border to agreement at constant temperatures. Returns the SolveReport of the last converged solve, whose
     state is in the table.
     """
-    if border is None or not report.converged or border.agrees():
+    if border is None or not report.converged or (border.agrees() and not solver.share_load()):
         return report
     kept, solver.border = (solver.levels.get(fields.P), solver.H0), border
     moved, solver.border = solve_again(solver), None

@@ -78,8 +78,8 @@ class SolvedState:
 
     @property
     def load(self):
-        """Load carried by the pressure."""
-        return self.solver.load
+        """Load of the contact."""
+        return self.solver.levels.scales.load
 
     @property
     def wall(self):

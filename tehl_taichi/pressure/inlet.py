@@ -12,6 +12,7 @@ import numpy as np
 
 from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.grids import load_weights
 from tehl_taichi.scene.film_formula import central_film
 
 T, WEIGHTS = (0.5 * part for part in np.polynomial.legendre.leggauss(40))
@@ -70,8 +71,12 @@ class Inlet:
     def put(self, q):
         """Set this reduced pressure (Pa) at the border nodes."""
         P = self.levels.get(fields.P)
-        P[self.border] = np.interp(np.minimum(q, MOST * self.q[-1]), self.q, self.p) / self.levels.scales.p_H
+        P[self.border] = self._pressure(q)
         self.levels.put(fields.P, P)
+
+    def _pressure(self, q):
+        """Pressure, over that of Hertz, of oil with this reduced pressure (Pa)."""
+        return np.interp(np.minimum(q, MOST * self.q[-1]), self.q, self.p) / self.levels.scales.p_H
 
     def follow(self):
         """Move the border pressure towards that of the oil beyond it, by a part that accounts for the film's response to the
@@ -136,6 +141,35 @@ class Inlet:
         """Flow rho H at X = 0, relative to the density at the inlet."""
         v = self.levels
         return float(np.interp(0.0, v.X, (H * v.get(fields.RHO))[v.middle]))
+
+    def load(self):
+        """Load of the oil beyond the border, in the units of :func:`tehl_taichi.pressure.grids.load_weights`; 0 without
+        such oil.
+        """
+        if not self.flooded:
+            return 0.0
+        return self._load_of_line() if self.levels.line else self._load_of_point()
+
+    def _load_of_line(self):
+        v = self.levels
+        H = v.get(fields.H)
+        X, gap, weights = far(v.X[0], H[v.middle, 0], 1.0)
+        shape = np.sum(weights * (np.abs(X) - abs(v.X[0])) * (gap - self.carried(H)) / gap**3)
+        return max(float(shape), 0.0) / v.numbers.inv_lambda
+
+    def _load_of_point(self):
+        """The pressure at each node of the border, times the area of its triangle with the centre, times twice the integral of
+        s q(s) along the ray, where q is |X|/gap^2 and the gap grows as that of the rigid bodies; s = 1 at the border.
+        """
+        v = self.levels
+        P, cell = np.zeros(self.border.shape), load_weights(v)[:, 0] / v.dx
+        P[self.border] = self._pressure(self.beyond())
+        growth = v.smooth_gap() / v.get(fields.H)
+        beyond = P * sum(w / t**4 / (1 + growth * (1 / t**2 - 1)) ** 2 for t, w in zip(T, WEIGHTS))
+        load = (abs(v.X[0]) + v.dx / 2) * cell @ beyond[:, 0]
+        for row in [-1, -1] if v.mirrored else [0, -1]:
+            load += (abs(v.Y[row]) - v.dy / 2) * v.dx * beyond[row, v.X < 0].sum()
+        return float(load)
 
     def _kappa(self, H, carried):
         """Correction of a point contact: mean of 1 and the ratio of the integral along y = 0 to that of a gap ~ X^2."""

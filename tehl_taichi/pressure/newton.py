@@ -13,6 +13,7 @@ import numpy as np
 from tehl_taichi.engine import runtime
 from tehl_taichi.pressure import balances, fields, reynolds
 from tehl_taichi.pressure.equations import Equations
+from tehl_taichi.pressure.inlet import Inlet
 from tehl_taichi.pressure.linear import red_black
 from tehl_taichi.pressure.linear.interface import RightHandSide
 from tehl_taichi.pressure.linear.multigrid_gmres import MultigridGmres
@@ -46,6 +47,8 @@ GAIN, GAIN_POWER = 0.9, 1.618
 # A linear solve reduces the mass error some ten times as much as the norm of the rows. With this factor, Newton / Krylov per
 # step are 2.31/16.2 (2.31/18.2 without, 2.47/15.7 with 30), with temperatures 2.97/19.6 (2.91/24.6, 3.13/18.9)
 MASS_GAIN = 10.0
+MOST_SHARED = 0.5  # of the load: oil beyond the border that carries more than the grid is a domain that is too short
+SHARED = 1e-6  # of the load: smaller changes of what the oil beyond the border carries are none
 FIRST_ROUND = 0.1  # of :meth:`PressureSolver.improve`: 0.2 and 0.05 cost 3 % more
 
 
@@ -100,7 +103,7 @@ class PressureSolver:
         self.take(film)
         self.linear = linear(levels)
         self.inside = levels.inside.astype(levels.linear)
-        self.load = levels.scales.load
+        self.load = None  # that the grid carries, see :meth:`share_load`
         self.H0, self.kept, self.keeps = 0.0, False, False
         self.border = None  # Inlet whose border follows the film; None: it rests
         self._bind()
@@ -123,6 +126,12 @@ class PressureSolver:
     def take(self, film):
         """Use density and viscosity of this film from now on."""
         self.equations = Equations(self.levels, film)
+
+    def share_load(self):
+        """Set the load that the grid carries; the oil beyond its border carries the rest. Returns whether it changed."""
+        before, whole = self.load, self.levels.scales.load
+        self.load = whole - (min(Inlet(self.levels).load(), MOST_SHARED * whole) if self.carries_load else 0.0)
+        return before is None or abs(self.load - before) > SHARED * whole
 
     def residual(self):
         """Compute H, laws and R of the state in the table."""
@@ -188,6 +197,8 @@ class PressureSolver:
     def _begin(self, kept=False):
         """Linearise about the state in the table; kept: it is near that of the last linear solve. Returns its merit."""
         self.residual()
+        if self.load is None or self.border is not None:
+            self.share_load()
         self.equations.linearise(kept and self.change < SAME_SLOPES)
         self.before, self.kept, self.rises = None, kept, 0
         if not kept:
@@ -196,10 +207,12 @@ class PressureSolver:
 
     def _follow(self):
         """Let the border follow the film. Returns whether it moved, which changes the equations."""
-        moved = self.border is not None and self.border.follow()
+        if self.border is None:
+            return False
+        moved = self.border.follow()
         if moved:
             self.residual()
-        return moved
+        return self.share_load() or moved
 
     def _forcing(self, krylov_tolerance, merit, tolerance):
         """Relative accuracy of the linear solve: the likely gain of the Newton step, but not much more than convergence

@@ -52,14 +52,6 @@ def formula_words(scene):
     return f"{name}, {scene.contact.kind}, isothermal, Newtonian{heavy}: within {within:.0%}"
 
 
-def load_power(scene):
-    """Exponent -d ln h/d ln f of the central film of a line by the formula: 0.1 for usual films, 1 between rigid bodies."""
-    s, E, Gamma = Scales.of(scene), reduced_modulus(scene), scene.operation.temperature
-    eta0, alpha = math.exp(ln_eta(scene.oil, 0.0, Gamma)), pressure_coefficient(scene.oil, Gamma)
-    M, L = moes_numbers(scene.load, s.R, E, eta0, alpha, s.u_m)
-    return -math.log(moes_line(1.05 * M, L) / moes_line(M, L)) / math.log(1.05)
-
-
 def heated_film(scene):
     """Central film (m) by formula, reduced by inlet shear heating in thermal scenes.
 
