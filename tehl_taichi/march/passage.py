@@ -74,7 +74,8 @@ class Passage:
 
     def _restore(self, state, done):
         self.step, self.P, self.solver.H0 = int(state["step"]), np.array(state["P"]), float(state["H0"])
-        self.solver.load = float(state["load"]) if "load" in state else None  # as the border's pressure, that of the start
+        if "load" in state:  # as the border's pressure, that of the start
+            self.solver.load, self.solver.shared = float(state["load"]), True
         self.parts = Substeps.of(state)
         self.levels.put(fields.P, self.P)
         if self.heat:
@@ -206,5 +207,6 @@ class Passage:
 
     def _accepted(self):
         """Last accepted state, whatever the tables contain."""
-        return {"step": self.step, "P": self.P, "H0": self.solver.H0, "load": self.solver.load, **(self.heat.state() if self.heat else {}),
+        return {"step": self.step, "P": self.P, "H0": self.solver.H0, "load": self.solver.load,
+                **(self.heat.state() if self.heat else {}),
                 **self.storage.state(), **self.prediction.state()}

@@ -105,4 +105,5 @@ def take(solved, step, time_s, feature_x, make_state):
 
 def state_of(solver, heat, step):
     """State in the solver's table, as arrays from which a march continues."""
-    return {"step": step, "P": solver.levels.get(fields.P), "H0": solver.H0, "load": solver.load, **(heat.state() if heat else {})}
+    return {"step": step, "P": solver.levels.get(fields.P), "H0": solver.H0, "load": solver.load,
+            **(heat.state() if heat else {})}

@@ -103,7 +103,7 @@ class PressureSolver:
         self.take(film)
         self.linear = linear(levels)
         self.inside = levels.inside.astype(levels.linear)
-        self.load = None  # that the grid carries, see :meth:`share_load`
+        self.load, self.shared = levels.scales.load, False  # load that the grid carries; whether :meth:`share_load` set it
         self.H0, self.kept, self.keeps = 0.0, False, False
         self.border = None  # Inlet whose border follows the film; None: it rests
         self._bind()
@@ -129,9 +129,9 @@ class PressureSolver:
 
     def share_load(self):
         """Set the load that the grid carries; the oil beyond its border carries the rest. Returns whether it changed."""
-        before, whole = self.load, self.levels.scales.load
+        before, known, whole, self.shared = self.load, self.shared, self.levels.scales.load, True
         self.load = whole - (min(Inlet(self.levels).load(), MOST_SHARED * whole) if self.carries_load else 0.0)
-        return before is None or abs(self.load - before) > SHARED * whole
+        return not known or abs(self.load - before) > SHARED * whole
 
     def residual(self):
         """Compute H, laws and R of the state in the table."""
@@ -197,7 +197,7 @@ class PressureSolver:
     def _begin(self, kept=False):
         """Linearise about the state in the table; kept: it is near that of the last linear solve. Returns its merit."""
         self.residual()
-        if self.load is None or self.border is not None:
+        if not self.shared or self.border is not None:
             self.share_load()
         self.equations.linearise(kept and self.change < SAME_SLOPES)
         self.before, self.kept, self.rises = None, kept, 0

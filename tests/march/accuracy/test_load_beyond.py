@@ -60,7 +60,8 @@ def test_of_a_line_it_is_the_integral_of_the_pressure_beyond(monkeypatch):
 
 
 @pytest.mark.usefixtures("taichi_cpu")
-@pytest.mark.parametrize("name, share, changes", [("mtm", 0.15, {}), ("smooth-line", 0.01, {"temperature": 60.0, "speed": 20.0})])
+@pytest.mark.parametrize("name, share, changes", [("mtm", 0.15, {}),
+                                                  ("smooth-line", 0.01, {"temperature": 60.0, "speed": 20.0})])
 def test_the_grid_and_the_oil_beyond_carry_the_load_together(name, share, changes):
     one = scene(name).replace(**{**THICK, **changes})
     s = Scales.of(one)
