@@ -74,8 +74,7 @@ class Passage:
 
     def _restore(self, state, done):
         self.step, self.P, self.solver.H0 = int(state["step"]), np.array(state["P"]), float(state["H0"])
-        if "load" in state:  # as the border's pressure, that of the start
-            self.solver.load, self.solver.shared = float(state["load"]), True
+        self.solver.load = float(state.get("load", self.scales.load))  # as the border's pressure, that of the start
         self.parts = Substeps.of(state)
         self.levels.put(fields.P, self.P)
         if self.heat:

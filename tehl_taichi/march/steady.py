@@ -12,7 +12,7 @@ import numpy as np
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march.alternating_start import find_steady, time_step
 from tehl_taichi.march.feature_gap import smooth_with
-from tehl_taichi.march.flooded_border import between_blocks, border_of, iterate_border
+from tehl_taichi.march.flooded_border import between_blocks, border_of, iterate_border, share_load
 from tehl_taichi.march.isothermal_start import from_nothing, put, solve_from_table, solve_in_time
 from tehl_taichi.march.pseudo_transient import check, march_to_rest
 from tehl_taichi.pressure import fields
@@ -56,16 +56,17 @@ def solve_steady(scene, scales, nx, ny, look=None, full=False):
     `report.converged`.
     """
     look = look or (lambda solver, heat, report: scalars(solver.levels, *map(solver.levels.get, (fields.P, fields.H))))
-    P, H0, T, values, work, moving = None, 0.0, None, [], 0, False
+    P, H0, load, T, values, work, moving = None, 0.0, scales.load, None, [], 0, False
     for size in grid_sequence(nx, ny):
         solver = heat = levels = None  # give their tables to the next grid
         finest, levels = size[0] == nx, Levels(scene, scales, *size, full)
         levels.put(fields.GAP0, smooth_with(levels, scene.standing))
         solver = pressure_solver(levels, OneTemperature(levels))
         solver.border = border_of(levels)
-        report = from_nothing(solver) if P is None else _from_coarser(solver, P, H0)
+        solver.load, solver.shares = load, P is not None
+        report = share_load(solver, from_nothing(solver) if P is None else _from_coarser(solver, P, H0))
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
-        P, H0 = (levels.get(fields.P), solver.H0) if report.converged else (None, 0.0)
+        P, H0, load = (levels.get(fields.P), solver.H0, solver.load) if report.converged else (None, 0.0, scales.load)
         before, T = T, None  # temperatures are a start for the next grid only
         if report.converged and not scene.isothermal and (finest or nx // size[0] <= FINEST_THERMAL and not _touches(solver)):
             heat = FilmHeat(levels, time_step(scene, scales, levels.dx))

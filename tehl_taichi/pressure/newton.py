@@ -103,7 +103,8 @@ class PressureSolver:
         self.take(film)
         self.linear = linear(levels)
         self.inside = levels.inside.astype(levels.linear)
-        self.load, self.shared = levels.scales.load, False  # load that the grid carries; whether :meth:`share_load` set it
+        # load that the grid carries, see :meth:`share_load`; whether it follows the film, with the border
+        self.load, self.shares = levels.scales.load, False
         self.H0, self.kept, self.keeps = 0.0, False, False
         self.border = None  # Inlet whose border follows the film; None: it rests
         self._bind()
@@ -129,9 +130,9 @@ class PressureSolver:
 
     def share_load(self):
         """Set the load that the grid carries; the oil beyond its border carries the rest. Returns whether it changed."""
-        before, known, whole, self.shared = self.load, self.shared, self.levels.scales.load, True
+        before, whole = self.load, self.levels.scales.load
         self.load = whole - (min(Inlet(self.levels).load(), MOST_SHARED * whole) if self.carries_load else 0.0)
-        return not known or abs(self.load - before) > SHARED * whole
+        return abs(self.load - before) > SHARED * whole
 
     def residual(self):
         """Compute H, laws and R of the state in the table."""
@@ -197,8 +198,6 @@ class PressureSolver:
     def _begin(self, kept=False):
         """Linearise about the state in the table; kept: it is near that of the last linear solve. Returns its merit."""
         self.residual()
-        if not self.shared or self.border is not None:
-            self.share_load()
         self.equations.linearise(kept and self.change < SAME_SLOPES)
         self.before, self.kept, self.rises = None, kept, 0
         if not kept:
@@ -206,13 +205,13 @@ class PressureSolver:
         return self.measure()
 
     def _follow(self):
-        """Let the border follow the film. Returns whether it moved, which changes the equations."""
+        """Let the border follow the film, and the load that the grid carries. Returns whether the equations changed."""
         if self.border is None:
             return False
         moved = self.border.follow()
         if moved:
             self.residual()
-        return self.share_load() or moved
+        return self.shares and self.share_load() or moved
 
     def _forcing(self, krylov_tolerance, merit, tolerance):
         """Relative accuracy of the linear solve: the likely gain of the Newton step, but not much more than convergence
