@@ -22,8 +22,8 @@ def border_of(levels):
 def share_load(solver, report):
     """Solve again with the load that the oil beyond the border leaves to the grid. Returns the SolveReport of all solves.
 
-    After a start, whose way from the Hertz pressure is delicate: of 15 starts with slip and a feature at rest 13 converged where
-    that load followed each Newton step, 15 so.
+    After a start, whose way from the Hertz pressure is delicate: of 15 starts with slip and a feature at rest 13 converged
+    where that load followed each Newton step, 15 so.
     """
     before, solver.shares = (solver.levels.get(fields.P), solver.H0, solver.load), True
     if not (report.converged and solver.share_load()):
