@@ -7,7 +7,6 @@ import time
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.pace import Pace
-from tehl_taichi.values.coerce import shown
 
 STAGES = "steady start", "passage", "zoom", "stresses and fatigue", "coarse-grid runs"
 STEADY, PASSAGE, ZOOM, FATIGUE, ERRORS = STAGES
@@ -21,6 +20,8 @@ def progress_of(given):
         return Progress()
     lacks = [name for name, method in vars(Progress).items() if callable(method) and not callable(getattr(given, name, None))]
     if lacks:
+        from tehl_taichi.values.coerce import shown
+
         raise SceneError(f"progress = {shown(given)} has no method {lacks[0]}; allowed: an object derived from "
                          "tehl_taichi.Progress, or None")
     return given
