@@ -14,6 +14,7 @@ from tehl_taichi.scene.timeline import cut_at
 from tehl_taichi.store import array_file, chunks, integrity
 from tehl_taichi.store import stand_in as stand_in_scene
 from tehl_taichi.store.layout import OWN
+from tehl_taichi.values import checks
 from tehl_taichi.values.coded_warning import warnings_of_lists
 
 
@@ -118,7 +119,8 @@ class Reader:
         return self.series[name][: self.steps]
 
     def feature_x(self, n):
-        """Position of the first feature's centre (m) at entry n."""
+        """Position of the first feature's centre (m) at entry n. Raises SceneError as :meth:`fields`."""
+        self._check_entry(n)
         return float(self.series["feature_x"][n])
 
     def displacement(self, surface):
@@ -130,8 +132,14 @@ class Reader:
         return pace * self.scalar("feature_x")
 
     def fields(self, n, names=None):
-        """{name: (nx+1, ny+1) array} of entry n; names: default all stored fields."""
+        """{name: (nx+1, ny+1) array} of entry n; names: default all stored fields. Raises SceneError if the store has no such
+        entry, StoreError for a damaged file.
+        """
+        self._check_entry(n)
         return {name: self._values(name, n) for name in (self.stored if names is None else names)}
+
+    def _check_entry(self, n):
+        checks.integer("entry", n, 0, self.steps - 1)
 
     def _values(self, name, n):
         """Values of one chunk, read directly: ten times faster than through zarr, which matters in a fatigue search."""

@@ -122,9 +122,10 @@ def test_ctrl_c_says_what_is_stored_and_is_no_error_of_ours(done, tmp_path):
         tehl.run(RIDGE, path, progress=Heard(stop=2))
     half = tehl.open(path)
     assert not half.finished and half.summary == {} and "not finished" in repr(half) and half.rest() == RIDGE
-    assert tehl.resume(path).finished
+    whole = tehl.resume(path)
+    assert whole.finished
     for n in range(5):
-        np.testing.assert_array_equal(half.store.fields(n)["film"], done[0].store.fields(n)["film"])
+        np.testing.assert_array_equal(whole.store.fields(n)["film"], done[0].store.fields(n)["film"])
 
 
 def test_the_time_of_a_resumed_run_is_that_of_all_its_pieces(tmp_path):
