@@ -172,6 +172,16 @@ def written_by(attrs):
     return f"written by version {version} (layout {layout}), this is {__version__} (layout {FORMAT})"
 
 
+def check_layout(path, attrs):
+    """Refuse a layout that this version does not know: it may misread its arrays. Raises StoreError."""
+    layout = attrs.get("format", 1)
+    if isinstance(layout, bool) or not isinstance(layout, int) or layout < 1:
+        raise damage_error(path, f"'format', its layout, is {shown(layout)}; allowed: 1 to {FORMAT}")
+    if layout > FORMAT:
+        raise StoreError(f"{path} was {written_by(attrs)}; allowed: layouts 1 to {FORMAT}. Install the version that wrote it, "
+                         f"or a newer one; `tehl run {path} --out NEW` repeats the run")
+
+
 @contextlib.contextmanager
 def newer_version_errors(path, attrs):
     """Context manager: an error while reading a store of a newer version becomes a StoreError that says which version to

@@ -27,6 +27,7 @@ class Reader:
     def __init__(self, path, lock=None, stand_in=False):
         self.path, self.lock = Path(path), lock
         self.attrs, self.metadata = integrity.root_of(self.path)
+        integrity.check_layout(self.path, self.attrs)
         with integrity.newer_version_errors(self.path, self.attrs):
             self.scene, self.lacks = (stand_in_scene.scene_of(self.path, self.attrs) if stand_in else
                                       (integrity.scene_of(self.path, self.attrs), ""))

@@ -14,6 +14,7 @@ from tehl_taichi.disk import files
 from tehl_taichi.errors import INTERRUPTED, Interrupted, StoreError
 from tehl_taichi.march.step_output import Scalar, entries
 from tehl_taichi.scene import scene
+from tehl_taichi.store.load_scene import find
 from tehl_taichi.store.store import Store
 
 
@@ -159,6 +160,18 @@ def test_what_a_newer_version_wrote_is_not_called_damaged(path, version, newer):
             Store.open(path)
     edit(path, steps=3)
     assert len(Store.open(path)) == 3  # what this one can read is read
+
+
+@pytest.mark.parametrize("layout, said", [
+    (99, r"was written by version .* \(layout 99\), this is .* \(layout 3\); allowed: layouts 1 to 3. Install the version"),
+    (0, "'format', its layout, is 0; allowed: 1 to 3"), ("3", "is '3'; allowed"), (True, "is True; allowed"),
+    (2.5, "is 2.5; allowed"), ([3], r"is \[3\]; allowed")])
+def test_an_unknown_layout_is_refused(path, layout, said):
+    edit(path, format=layout)
+    for opened in (Store.open, Store.write):
+        with pytest.raises(StoreError, match=said):
+            opened(path)
+    assert find(path) == SMALL  # of which a new run can be made
 
 
 def test_zero_steps_meant_all_in_stores_of_version_0_1(path):
