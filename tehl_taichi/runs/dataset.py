@@ -3,6 +3,8 @@
 import numpy as np
 
 from tehl_taichi.errors import StoreError, extra
+from tehl_taichi.store import integrity
+from tehl_taichi.store.written_chunks import EVERY
 
 NAMES = {"component": ["xx", "yy", "zz", "xy", "xz", "yz"], "direction": ["x", "y", "z"],
          "of_circle": ["along dip", "along strike", "radius"]}
@@ -10,12 +12,13 @@ ALONG_TIME = ("feature_x", "step")  # series that say which moment it is
 
 
 def dataset(path):
-    """Open the store at `path` as a Dataset. Raises StoreError without xarray (the `xarray` extra)."""
+    """Open the store at `path` as a Dataset. Raises StoreError without xarray (the `xarray` extra), and for a damaged store."""
     try:
-        import xarray
+        from tehl_taichi.store import checked_zarr
     except ImportError:
         raise StoreError(f"a dataset needs xarray: {extra('xarray')}") from None
-    data = xarray.open_zarr(path)
+    attrs, arrays = integrity.root_of(path)
+    data = checked_zarr.opened(path, arrays, attrs.get(EVERY) is True)
     data = data.set_coords([name for name in ALONG_TIME if name in data])
     missing = {dim: size for dim, size in data.sizes.items() if dim not in data.coords}
     return data.assign_coords({dim: NAMES.get(dim, np.arange(size)) for dim, size in missing.items()})

@@ -156,7 +156,8 @@ class Run:
         Raises
         ------
         StoreError
-            xarray is not installed (extra `xarray`).
+            xarray is not installed (extra `xarray`), or a file of the store is missing or damaged (the latter also while
+            the dataset loads data).
 
         Examples
         --------

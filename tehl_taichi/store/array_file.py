@@ -4,6 +4,7 @@ They are written without zarr, which takes 2 ms to describe an array and 5 ms to
 writes its table again and again.
 """
 
+import contextlib
 import functools
 import json
 import math
@@ -91,10 +92,23 @@ def write_values(folder, values):
 
 def read_whole(folder):
     """The values of the array in `folder`. Raises StoreError."""
-    try:
-        chunks.check(folder)
+    check(folder)
+    with _damage_errors(folder):
         found = _of_one_chunk(folder)
         return _by_zarr(folder) if found is None else found
+
+
+def check(folder):
+    """Refuse an array whose files declare more than its size, or that does not fit in memory. Raises StoreError."""
+    with _damage_errors(folder):
+        chunks.check(folder)
+
+
+@contextlib.contextmanager
+def _damage_errors(folder):
+    """Context manager: every error while an array is read becomes a StoreError."""
+    try:
+        yield
     except StoreError:
         raise
     except Exception as error:  # zarr and its codecs have no common one

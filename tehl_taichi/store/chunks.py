@@ -3,6 +3,7 @@
 The declared size of a file is compared with its array before memory is allocated: a few bytes can declare terabytes.
 """
 
+import contextlib
 import math
 
 import numpy as np
@@ -22,11 +23,29 @@ SLACK = 1000  # bytes by which a chunk that does not shrink may grow, beside a h
 def read(path, dtype, count):
     """The `count` values of one chunk file. Raises StoreError with its name."""
     size = count * np.dtype(dtype).itemsize
+    with _damage_errors(path):
+        return np.frombuffer(_decompressed(files.content(path, 1.01 * size + SLACK), size), dtype)
+
+
+def verify(path, frame, size):
+    """Refuse the content `frame` of a chunk file with a wrong checksum or another size (bytes; None: any). Raises StoreError
+    with its name.
+    """
+    with _damage_errors(path):
+        _decompressed(frame, size)
+
+
+def _decompressed(frame, size):
+    if size is not None and declared_bytes(frame) != size:
+        raise ValueError(f"it declares {declared_bytes(frame)} bytes, not the {size} of its array")
+    return zstd.decompress(frame)
+
+
+@contextlib.contextmanager
+def _damage_errors(path):
+    """Context manager: errors of the disk and of zstd become a StoreError."""
     try:
-        frame = files.content(path, 1.01 * size + SLACK)
-        if declared_bytes(frame) != size:
-            raise ValueError(f"it declares {declared_bytes(frame)} bytes, not the {size} of its array")
-        return np.frombuffer(zstd.decompress(frame), dtype)
+        yield
     except FileNotFoundError:
         raise StoreError(f"{path} is missing: the store is damaged") from None
     except (OSError, RuntimeError, ValueError) as error:

@@ -11,7 +11,7 @@ from tehl_taichi.disk.locks import holder
 from tehl_taichi.errors import StoreError
 from tehl_taichi.march.step_output import fields_of, names, scalars_of
 from tehl_taichi.scene.timeline import cut_at
-from tehl_taichi.store import array_file, chunks, integrity
+from tehl_taichi.store import array_file, chunks, integrity, written_chunks
 from tehl_taichi.store import stand_in as stand_in_scene
 from tehl_taichi.store.layout import OWN
 from tehl_taichi.values import checks
@@ -72,6 +72,11 @@ class Reader:
     def other_version(self):
         """Description of the version that wrote the store, None if it is this one."""
         return integrity.written_by(self.attrs)
+
+    @property
+    def every_chunk(self):
+        """Whether its writer left out no chunk, see :mod:`tehl_taichi.store.written_chunks`."""
+        return self.attrs.get(written_chunks.EVERY) is True
 
     @property
     def cut(self):
@@ -148,10 +153,9 @@ class Reader:
         return chunks.read(self._file(name, n), "<" + self.stored[name], math.prod(shape)).reshape(shape)
 
     def _file(self, name, n):
-        """File of entry n of a field; before layout 3 each entry is in its own folder."""
+        """File of entry n of a field."""
         array = self.metadata[name]
-        between = array["chunk_key_encoding"].get("configuration", {}).get("separator", "/")
-        return self.path / name / between.join(["c", str(n)] + ["0"] * (len(array["shape"]) - 1))
+        return self.path / name / written_chunks.name(array, [n] + [0] * (len(array["shape"]) - 1))
 
     def _read_series(self, name):
         """Scalar series, with free space after its last entry."""
@@ -165,6 +169,7 @@ class Reader:
         return out
 
     def _whole(self, name):
+        written_chunks.check(self.path, {name: self.metadata.get(name, {})}, self.every_chunk)
         return array_file.read_whole(self.path / name)
 
     @property

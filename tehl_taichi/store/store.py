@@ -23,7 +23,7 @@ from tehl_taichi.disk.locked_folder import LockedFolder, locked_folder
 from tehl_taichi.errors import Error, Interrupted
 from tehl_taichi.march.step_output import names
 from tehl_taichi.scene import scene_file
-from tehl_taichi.store import checkpoint, chunks, integrity, layout, stored_maps
+from tehl_taichi.store import checkpoint, chunks, integrity, layout, stored_maps, written_chunks
 from tehl_taichi.store.integrity import CHECKPOINTS, FORMAT
 from tehl_taichi.store.json_values import plain
 from tehl_taichi.store.layout import OWN
@@ -64,7 +64,8 @@ class Store(LockedFolder, Reader):
         arrays = {**layout.lay_out(place.folder, capacity, scene, snapshot), **stored_maps.write(place.folder, scene)}
         (place.folder / CHECKPOINTS).mkdir()
         attrs = {"Conventions": "CF-1.10", "format": FORMAT, "version": __version__, "scene": json.dumps(scene.to_dict()),
-                 "scene_toml": scene_file.dumps(scene), **attrs, "outputs": json.dumps(names()), "steps": 0, "finished": False}
+                 "scene_toml": scene_file.dumps(scene), **attrs, "outputs": json.dumps(names()), written_chunks.EVERY: True,
+                 "steps": 0, "finished": False}
         layout.publish(place.folder, attrs, dict(sorted(arrays.items())))
         store = cls(place.folder, place.lock)
         store.x, store.y = (np.array(values, float) for values in (snapshot.x, snapshot.y))  # reading them takes 2 ms

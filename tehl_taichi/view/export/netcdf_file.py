@@ -4,7 +4,7 @@ import contextlib
 import io
 
 from tehl_taichi.errors import StoreError, extra
-from tehl_taichi.store import chunks
+from tehl_taichi.store import array_file
 from tehl_taichi.view.export.file_format import Format
 
 PACKED = {"zlib": True, "complevel": 1}
@@ -17,13 +17,14 @@ def write(reader, path, places):
     try:
         import h5netcdf
         import h5py  # noqa: F401  xarray's own sentence about it names no extra
-        import xarray
         from xarray.backends import H5NetCDFStore
+
+        from tehl_taichi.store import checked_zarr
     except ImportError as error:
         raise StoreError(f"NetCDF needs {error.name}: {extra('xarray')}") from None
     for name in reader.metadata:
-        chunks.check(reader.path / name)
-    with xarray.open_zarr(reader.path, chunks=None, decode_times=False) as data:
+        array_file.check(reader.path / name)
+    with checked_zarr.opened(reader.path, reader.metadata, reader.every_chunk, chunks=None, decode_times=False) as data:
         for variable in data.variables.values():
             variable.encoding = {}  # zarr's codecs, which HDF5 has not
         data.attrs = {name: _plain(value) for name, value in data.attrs.items()}
