@@ -255,12 +255,12 @@ class Study(LockedFolder):
                 "table": str(self.table), "results": self.results()}
 
     def to_xarray(self):
-        """Table as an xarray.Dataset over the swept keys. Raises StoreError without xarray."""
+        """Table as an xarray.Dataset over the swept keys. Raises StoreError without xarray, and for a damaged file."""
         try:
-            import xarray
+            from tehl_taichi.store import checked_zarr
         except ImportError:
             raise StoreError(f"xarray is not installed: {extra('xarray')}") from None
-        return xarray.open_zarr(self.path).load()
+        return checked_zarr.opened(self.path, _arrays(self.path), every=False).load()
 
     def plot(self, folder=None, quantity=None, dpi=160, format="png", width=17.0, force=False):
         """Write its figures into `folder` (default: beside the study), of one column of the table or of the usual ones.
@@ -281,6 +281,14 @@ def _scene_text(plan):
         return json.dumps(json.loads(plan)["scene"])
     except (TypeError, ValueError, KeyError):
         return ""
+
+
+def _arrays(path):
+    """{name: metadata} of the arrays of the study at `path`. Raises StoreError."""
+    try:
+        return dict(json_of(path / ROOT)["consolidated_metadata"]["metadata"])
+    except (OSError, ValueError, KeyError, TypeError):
+        raise StoreError(f"{path / ROOT} is damaged: it does not describe the arrays of a study") from None
 
 
 def is_study(path):

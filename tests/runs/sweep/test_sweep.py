@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -74,6 +75,22 @@ def test_a_study_is_a_table_over_the_swept_keys(study):
     assert len(rows) == 9 and float(rows[7]["fatigue_Fi_max"]) == pytest.approx(found) and rows[5]["fatigue_Fi_max"] == ""
     assert float(rows[0]["fatigue_error_Fi_max"]) == 0.04 and rows[1]["fatigue_error_Fi_max"] == ""
     assert "left_out" not in rows[0] and float(rows[7]["feature.height"]) == 1e-6
+
+
+def test_a_damaged_table_is_refused_by_name(study, tmp_path):
+    pytest.importorskip("xarray")
+    path = shutil.copytree(study.path, tmp_path / "a.zarr")
+    for name, said in (("fatigue_Fi_max/c/0/0", "Fi_max/c/0/0"), ("srr/c/0", "srr/c/0"), ("zarr.json", "")):
+        file, content = path / name, (path / name).read_bytes()
+        opened = Study.open(path)
+        file.write_bytes(content[:-9])
+        with pytest.raises(StoreError, match=f"{said} is damaged" if said else "does not describe the arrays of a study"):
+            opened.to_xarray()
+        file.unlink()
+        with pytest.raises(StoreError, match=f"{said} is missing" if said else "does not describe the arrays of a study"):
+            opened.to_xarray()
+        file.write_bytes(content)
+    assert opened.to_xarray().equals(study.to_xarray())
 
 
 def test_keys_that_change_together_lie_along_one_dimension(tmp_path):
