@@ -21,6 +21,16 @@ def path(tmp_path_factory):
     return made_results.run(tmp_path_factory.mktemp("dataset") / "a.zarr", search=made_results.fatigue(), found=found)
 
 
+def test_every_variable_has_a_unit_and_a_long_name(path):
+    data = tehl.open(path).to_xarray()
+    assert [name for name, one in data.variables.items() if not {"units", "long_name"} <= one.attrs.keys()] == []
+    assert not {*data.dims} - {*data.coords}
+    assert data.component.long_name == "component of the stress" and list(data.component.values[:2]) == ["xx", "yy"]
+    assert {data[name].long_name for name in MOMENTS} == {"number of the moment in a stress history; the last one is unloaded"}
+    assert list(data.direction.values) == ["x", "y", "z"] and data.of_circle.units == "1"
+    assert data.nothing.long_name == "number along nothing"
+
+
 def test_a_store_that_was_damaged_after_it_was_opened(path):
     run, root = tehl.open(path), path / "zarr.json"
     before = root.read_text()
