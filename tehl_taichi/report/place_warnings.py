@@ -1,6 +1,6 @@
 """Warnings of a sequence of contacts, each kind once with its places."""
 
-from tehl_taichi.values.coded_warning import warnings_of_lists
+from tehl_taichi.values.coded_warning import Kinds, warnings_of
 
 MANY = 3  # places that are named one by one
 
@@ -11,16 +11,13 @@ def of(rows, words, spelled=str):
 
     Warnings of one kind with different numbers become one sentence: that of the first place, followed by the other places.
     """
-    kinds: dict[str, dict[str, list[str]]] = {}
+    kinds: dict[tuple, dict[str, list[str]]] = {}
     count = sum(1 for *_, summary in rows if summary)
     for at, _, summary in rows:
-        for one in _warnings(summary or {}):
-            kinds.setdefault(one.code or str(one), {}).setdefault(spelled(one), []).append(words(at))
+        own = Kinds()
+        for one in warnings_of(summary or {}):
+            kinds.setdefault(own.of(one), {}).setdefault(spelled(one), []).append(words(at))
     return [_sentence(found, count) for found in kinds.values()]
-
-
-def _warnings(summary):
-    return warnings_of_lists(summary.get("warnings", []), summary.get("warning_codes", []), summary.get("warning_data", []))
 
 
 def _sentence(found, count):

@@ -23,6 +23,7 @@ from tehl_taichi.scene.sections import Fatigue, Time, Zoom
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.strength.table import HARDNESS, KAPPA, RESIDUAL
 from tehl_taichi.values.automatic import AutomaticValue
+from tehl_taichi.values.coded_warning import with_data
 from tehl_taichi.values.quantity import kinds
 
 MOES = ("oil.eta0", "oil.alpha")  # numbers of the oil that a Moes pair uses
@@ -61,9 +62,9 @@ def doubts(scene):
     beside = {"time.steady_only", *["grid.ny"] * ("grid.nx" in own)}  # says what is so; --grid gives both
     beside |= {"time.steps"} if scene.time.steps <= 0 else set()  # all of none, none
     for key in sorted(own & found.keys() - beside):
-        yield f"{short_key(key, scene)} has no effect here: {found[key]}"
-    yield from (f"rheology.{key} has no effect on the film: the law {scene.rheology.law!r} does not use it; it only "
-                "limits the friction of solid contact" for key in BOUNDARY.numbers
+        yield with_data(f"{short_key(key, scene)} has no effect here: {found[key]}", key=key)
+    yield from (with_data(f"rheology.{key} has no effect on the film: the law {scene.rheology.law!r} does not use it; it only "
+                          "limits the friction of solid contact", key=f"rheology.{key}") for key in BOUNDARY.numbers
                 if f"rheology.{key}" in own - found.keys() and _only_solid(scene, key))
 
 

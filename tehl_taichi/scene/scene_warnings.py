@@ -82,11 +82,11 @@ def unusual(scene):
     """Hints about values that were perhaps meant in another unit."""
     for key, kind, value in keys.every(scene):
         if isinstance(kind, Number) and isinstance(value, float) and (hint := kind.doubted(key, value)):
-            yield hint
+            yield with_data(hint, key=key)
     p_H = scales.Scales.of(scene).p_H
     if scene.contact.load and p_H < FAINT and (hint := scene.load_meant(least=PRESSED)):
-        yield (f"contact.load = {scene.contact.load:g} {scene.load_unit} gives a Hertz pressure of only {p_H / 1e6:.0f} "
-               f"MPa{hint}")
+        yield with_data(f"contact.load = {scene.contact.load:g} {scene.load_unit} gives a Hertz pressure of only "
+                        f"{p_H / 1e6:.0f} MPa{hint}", key="contact.load")
 
 
 def counted_twice(scene):

@@ -2,7 +2,7 @@
 
 import json
 
-from tehl_taichi.values.coded_text import CodedText, options_of
+from tehl_taichi.values.coded_text import CodedText, code_of, options_of
 
 
 class CodedWarning(CodedText):
@@ -25,6 +25,21 @@ def unique(sentences):
     return list(dict.fromkeys(sentences))
 
 
+class Kinds:
+    """Kinds of the warnings of one run: those of one kind differ in their numbers only, between runs."""
+
+    def __init__(self):
+        self.found: dict[tuple, list] = {}
+
+    def of(self, warning):
+        """Kind of a warning: its code and the key that it is about, and which of several such it is (one per feature, body)."""
+        code, data = code_of(warning), getattr(warning, "data", {})
+        same = self.found.setdefault((code or str(warning), data.get("key", "")), [])
+        if warning not in same:
+            same.append(warning)
+        return code or str(warning), data.get("key", ""), same.index(warning)
+
+
 def lists(warnings):
     """{name: list} of the sentences, codes and data of warnings, for summaries and stores."""
     whole = [one if isinstance(one, CodedWarning) else CodedWarning(one) for one in warnings]
@@ -42,3 +57,9 @@ def warnings_of_lists(sentences, codes, data):
     if not len(sentences) == len(codes) == len(data):
         return [CodedWarning(text) for text in sentences]
     return [CodedWarning(*one) for one in zip(sentences, codes, data)]
+
+
+def warnings_of(summary):
+    """Warnings of a summary."""
+    sentences, codes = summary.get("warnings", []), summary.get("warning_codes", [])
+    return warnings_of_lists(sentences, codes, summary.get("warning_data", [{} for _ in codes]))

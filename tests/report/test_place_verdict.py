@@ -4,6 +4,7 @@ import made_results
 import pytest
 
 from tehl_taichi.report import place_verdict, place_warnings
+from tehl_taichi.values.coded_warning import CodedWarning, lists
 
 
 def search(Fi, error=None, early=None, alone=0.9):
@@ -69,6 +70,16 @@ def test_a_kind_of_warning_is_one_sentence():
 
     rows = [row("A", "15 cells"), row("B", "14 cells"), row("C"), row("D", "15 cells"), ("E", 1e9, None)]
     assert place_warnings.of(rows, str) == ["A, D: 15 cells (likewise, with other numbers, at B)"]
+
+
+def test_several_warnings_of_a_code_are_sentences_of_their_own():
+    def row(name, keys, cells):
+        found = [CodedWarning(f"{key} is idle", "idle", {"key": key}) for key in keys]
+        return name, 1e9, lists(found + [CodedWarning(f"{count} cells", "cells") for count in cells])
+
+    rows = [row("A", ["k", "kappa"], [15, 12]), row("B", ["kappa"], [14, 11])]
+    assert place_warnings.of(rows, str) == ["A: k is idle", "A, B: kappa is idle", "A: 15 cells (likewise, with other numbers, "
+                                            "at B)", "A: 12 cells (likewise, with other numbers, at B)"]
 
 
 def test_a_warning_of_all_places_names_none():

@@ -10,7 +10,7 @@ from small_stores import store
 import tehl_taichi as tehl
 from tehl_taichi.store.store import Store
 from tehl_taichi.values.coded_text import Reason, grid_option, reasons_of, unknown_of, without_options
-from tehl_taichi.values.coded_warning import CodedWarning, coded_warning, lists, texts, warnings_of_lists, with_data
+from tehl_taichi.values.coded_warning import CodedWarning, Kinds, coded_warning, lists, texts, warnings_of_lists, with_data
 
 
 def test_a_check_gives_its_sentence_the_registry_its_code():
@@ -85,3 +85,13 @@ def test_a_store_without_codes_opens_and_is_reported(tmp_path):
     old = tehl.open(path)
     assert old.summary["steady"]["unknown"] == {"h_min_m": "no coarser grid"} and old["h_min"].reason
     assert [one.code for one in old.warnings] == [""] and tehl.report(path).exists()
+
+
+def test_the_kind_of_a_warning_is_its_code_its_key_and_which_of_several_it_is():
+    """Equal for another run with other numbers; a warning that comes again has the kind that it had."""
+    k, kappa = CodedWarning("k idle", "idle", {"key": "bodies.a.k"}), CodedWarning("kappa idle", "idle", {"key": "fatigue.kappa"})
+    coarse = [CodedWarning(f"{n} cells", "cells") for n in (3, 5, 4, 6)]
+    one, other = Kinds(), Kinds()
+    first = [one.of(warning) for warning in (k, kappa, coarse[0], coarse[1])]
+    assert len(set(first)) == 4 and one.of(coarse[1]) == first[-1]
+    assert [other.of(warning) for warning in (kappa, coarse[2], coarse[3], k)] == [first[1], first[2], first[3], first[0]]

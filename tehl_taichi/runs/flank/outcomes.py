@@ -8,7 +8,7 @@ from tehl_taichi.runs import passages_left, single_run
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.single_run import check_version
 from tehl_taichi.runs.sweep import case, pool
-from tehl_taichi.values.coded_text import code_of
+from tehl_taichi.values.coded_warning import Kinds
 
 STAGE = "positions"
 
@@ -101,7 +101,7 @@ class _KindsOnce(Progress):
     """Progress of a flank: passes on each kind of warning once, with the first position that has it."""
 
     def __init__(self, listener):
-        self.listener, self.warned = listener, set()
+        self.listener, self.warned, self.kinds = listener, set(), {}
 
     def say(self, text):
         self.listener.say(text)
@@ -111,7 +111,7 @@ class _KindsOnce(Progress):
 
     def warn_at(self, name, sentence):
         """Pass on a warning of the run called `name`."""
-        kind = code_of(sentence) or str(sentence)
+        kind = self.kinds.setdefault(name, Kinds()).of(sentence)
         if kind not in self.warned:
             self.warned.add(kind)
             self.listener.warn(f"{name}: {sentence}")

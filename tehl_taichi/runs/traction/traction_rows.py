@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from tehl_taichi.runs.flank.flank_columns import error_of, value_at
+from tehl_taichi.values.coded_warning import Kinds, unique, warnings_of
 from tehl_taichi.values.digits import printed_unit
 
 TEMPERATURE, SPEED, SRR, LOAD, PRESSURE = "temperature", "speed", "srr", "load", "hertz_pressure"
@@ -90,12 +91,11 @@ class Traction:
     @property
     def warnings(self) -> list:
         """Warnings of the cases: the first of every kind, with the number of its cases."""
-        kinds: dict[str, list[str]] = {}
+        kinds: dict[tuple, list[str]] = {}
         for record in self.study.results():
-            summary = record["summary"] or {}
-            sentences = summary.get("warnings", [])
-            for kind, sentence in dict(zip(summary.get("warning_codes", sentences), sentences)).items():
-                kinds.setdefault(kind, []).append(sentence)
+            own = Kinds()
+            for one in unique(warnings_of(record["summary"] or {})):
+                kinds.setdefault(own.of(one), []).append(str(one))
         return [f"{found[0]} ({'the first of ' * (len(set(found)) > 1)}{len(found)} of {len(self.study)} cases)"
                 for found in kinds.values()]
 

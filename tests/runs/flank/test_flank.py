@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 import tehl_taichi as tehl
 from tehl_taichi.errors import interrupt
 from tehl_taichi.runs import passages_left
-from tehl_taichi.runs.flank import flank_columns, flank_figure
+from tehl_taichi.runs.flank import flank_columns, flank_figure, outcomes
 from tehl_taichi.runs.flank.flank_source import flank_source
 from tehl_taichi.runs.flank.line_contacts import scene_at
 from tehl_taichi.runs.sweep import case
@@ -271,3 +271,16 @@ def test_a_scene_that_no_position_can_have_is_refused_with_the_place(tmp_path):
 def test_what_the_gears_say_cannot_be_changed(key):
     with pytest.raises(SceneError, match="position A .* has no effect: the gears or the table set"):
         tehl.flank("fzg-c", changes={key: 1.0})
+
+
+def test_every_idle_key_is_reported_once():
+    """With the first position that has it; other numbers of a kind are no other kind."""
+    said = []
+    listener = tehl.Progress()
+    listener.warn = said.append
+    keys, once = {"kappa": 0.2, "time.courant": 0.3, "bodies.a.k": 30.0}, outcomes._KindsOnce(listener)
+    for name, changes in (("1", keys), ("2", keys), ("3", {**keys, "thermal.nodes": 17})):
+        for sentence in tehl.scene("smooth-line").replace(**changes, **{"thermal.on": False}).warnings():
+            once.warn_at(name, sentence)
+    assert [text.partition(" has no effect")[0] for text in said if "has no effect" in text] == [
+        "1: bodies.a.k", "1: fatigue.kappa", "1: time.courant", "3: thermal.nodes"]

@@ -11,6 +11,7 @@ import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.traction import traction_figure
 from tehl_taichi.runs.traction.traction_run import default_path, traction, traction_plan
+from tehl_taichi.values.coded_warning import lists
 from tehl_taichi.view.figures.figure_style import FigureStyle
 
 KEYS = {"srr", "temperature_C", "friction_coefficient", "h_c_m", "film_max_C", "error"}
@@ -46,6 +47,17 @@ def test_the_object_has_the_rows_of_the_interface(curves):
 def test_cases_without_a_result_are_listed(curves):
     assert [(row["srr"], row["reason"], row["friction_coefficient"]) for row in curves.failed] == [(0.4, "made up", None)] * 2
     assert curves.warnings == ["0.0 is doubtful (the first of 6 of 8 cases)"]
+
+
+def test_each_idle_key_of_the_cases_is_a_warning(tmp_path):
+    def work(job, progress=None):
+        lists_of = lists([one for one in job.scene.warnings() if one.code == "idle"])
+        return {"status": "converged", "reason": "", "seconds": 0.1, "summary": {"steady": {}, **lists_of}}
+
+    found = traction("gear", [0.1, 0.2], path=tmp_path / "t.zarr", changes={"kappa": 0.2, "time.courant": 0.3}, workers=1,
+                     work=work)
+    assert found.warnings == ["fatigue.kappa has no effect here: fatigue needs a passage (2 of 2 cases)",
+                              "time.courant has no effect here: nothing passes (no feature) (2 of 2 cases)"]
 
 
 def test_features_are_left_out_and_temperatures_computed_in_all_cases():
