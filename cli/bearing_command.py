@@ -6,7 +6,7 @@ import typer
 from tehl_cli.amount import number
 from tehl_cli.bearing_features import feature_of
 from tehl_cli.bearing_options import DIMENSIONS, SCANNED, contacts, loads
-from tehl_cli.idle_options import DRAWS, say_idle
+from tehl_cli.idle_options import say_idle, say_no_figure
 from tehl_cli.live_display import Live, say
 from tehl_cli.scene_options import changes_of
 from tehl_cli.shared_options import sharing
@@ -69,9 +69,11 @@ def _compute(which, context, own, scene, figure, as_json, quiet, curves, format,
 
     feature = feature_of(*map(shared.pop, SCANNED))
     page = FigureStyle(format, dpi, figure_width, force=True)
-    folder_figure.check(shared["out"], page, "bearing") if figure else say_idle(context, "--no-figure draws none", *DRAWS)
+    folder_figure.check(shared["out"], page, "bearing") if figure else say_no_figure(context, "--no-figure draws none")
     if feature is None and scene is None:
         say_idle(context, "nothing passes without --dent, --scan or --scene", "on", "steady")
+    if not shared["run"]:
+        say_idle(context, "--no-run computes no contact", "workers", "threads")
     with Live(quiet, curves) as live:
         found = _compute_bearing(which, own, live, feature=feature, scene=scene, **shared)
     if figure:

@@ -7,7 +7,7 @@ import typer
 from tehl_cli.amount import number
 from tehl_cli.bearing_features import feature_of
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
-from tehl_cli.idle_options import DRAWS, say_idle
+from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import Live, say
 from tehl_cli.scene_options import changes_of
 from tehl_cli.stdout import print_json, put
@@ -56,7 +56,7 @@ def cam(
 
     feature = feature_of(dent, scan, unit, pixel)
     page = FigureStyle(format, dpi, figure_width, force=True)
-    folder_figure.check(out, page, "cam") if figure else say_idle(context, "--no-figure draws none", *DRAWS)
+    folder_figure.check(out, page, "cam") if figure else say_no_figure(context, "--no-figure draws none")
     changes = changes_of({"oil.name": oil, "temperature": temperature, "thermal.on": thermal}, grid, set_ or [])
     with Live(quiet, curves) as live:
         found = tehl.cam(table, feature=feature, scene=find(scene) if scene else None, changes=changes, steady=steady,

@@ -6,7 +6,7 @@ from typing import Optional
 import typer
 from tehl_cli.amount import number
 from tehl_cli.figure_options import Dpi, Force, Format, Width
-from tehl_cli.idle_options import DRAWS, say_idle
+from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json, put
 
@@ -60,7 +60,7 @@ def crack(
     from tehl_taichi.view.figures.figure_style import FigureStyle
 
     page = FigureStyle(format, dpi, width, force)
-    page.check_all(figures, ["crack"]) if figures else say_idle(context, "it needs --figures", *DRAWS)
+    page.check_all(figures, ["crack"]) if figures else say_no_figure(context, "it needs --figures")
     run = open_run(store)
     if keep:
         crack_file.check(store)

@@ -6,7 +6,7 @@ from typing import Optional
 import typer
 from tehl_cli.fatigue_options import with_fatigue_options
 from tehl_cli.figure_options import Dpi, Force, Format, Width
-from tehl_cli.idle_options import DRAWS, say_idle
+from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import Live, say
 from tehl_cli.stdout import print_json
 
@@ -42,7 +42,7 @@ def fatigue(
 
     runtime.check(threads=threads)
     page = FigureStyle(format, dpi, width, force)
-    page.check_all(figures, fatigue_figures.NAMES) if figures else say_idle(context, "it needs --figures", *DRAWS)
+    page.check_all(figures, fatigue_figures.NAMES) if figures else say_no_figure(context, "it needs --figures")
     run = open_run(store)
     for sentence in _doubts(run.scene, constants):
         say(f"warning: {sentence}")

@@ -6,7 +6,7 @@ from typing import List, Optional
 import typer
 from tehl_cli.amount import amount, number
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
-from tehl_cli.idle_options import DRAWS, say_idle
+from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import Live, say
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
@@ -61,7 +61,7 @@ def flank(
     from tehl_taichi.view.figures.figure_style import FigureStyle
 
     page = FigureStyle(format, dpi, figure_width, force=True)
-    folder_figure.check(out, page, "flank") if figure else say_idle(context, "--no-figure draws none", *DRAWS)
+    folder_figure.check(out, page, "flank") if figure else say_no_figure(context, "--no-figure draws none")
     options = {"oil.name": oil, "temperature": temperature, "height": height, "width": width, "thermal.on": thermal}
     changes = changes_of(options, grid, set_ or [])
     base = find(scene) if scene else None

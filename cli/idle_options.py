@@ -2,7 +2,7 @@
 
 from tehl_cli.live_display import say
 
-DRAWS = ("format", "dpi", "width", "figure_width", "force")  # of figures: without one they have nothing to say
+DRAWS = ("format", "dpi", "figure_width", "force")  # of figures: without one they have nothing to say
 
 
 def say_idle(context, why, *names):
@@ -10,6 +10,12 @@ def say_idle(context, why, *names):
     for parameter in context.command.params if context else ():
         if parameter.name in names and context.get_parameter_source(parameter.name).name == "COMMANDLINE":
             say(f"warning: {_typed(parameter, context.params[parameter.name])} has no effect here: {why}")
+
+
+def say_no_figure(context, why):
+    """Warn about typed options of figures; --width is that of a feature in a command with --figure-width."""
+    names = [parameter.name for parameter in context.command.params] if context else []
+    say_idle(context, why, *DRAWS, *["width"] * ("figure_width" not in names))
 
 
 def _typed(parameter, value):

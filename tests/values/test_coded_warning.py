@@ -89,7 +89,7 @@ def test_a_store_without_codes_opens_and_is_reported(tmp_path):
 
 def test_the_kind_of_a_warning_is_its_code_its_key_and_which_of_several_it_is():
     """Equal for another run with other numbers; a warning that comes again has the kind that it had."""
-    k, kappa = CodedWarning("k idle", "idle", {"key": "bodies.a.k"}), CodedWarning("kappa idle", "idle", {"key": "fatigue.kappa"})
+    k, kappa = (CodedWarning(f"{key} idle", "idle", {"key": key}) for key in ("bodies.a.k", "fatigue.kappa"))
     coarse = [CodedWarning(f"{n} cells", "cells") for n in (3, 5, 4, 6)]
     one, other = Kinds(), Kinds()
     first = [one.of(warning) for warning in (k, kappa, coarse[0], coarse[1])]

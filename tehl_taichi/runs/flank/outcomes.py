@@ -32,7 +32,7 @@ def summaries(scenes, folder, workers=None, threads=None, progress=None):
     places = [(scene, Path(folder) / f"{scene.name}.zarr") for scene in scenes]
     done = {n: outcome for n, place in enumerate(places) if (outcome := _stored_outcome(*place))}
     todo = [n for n in range(len(places)) if n not in done]
-    workers, threads = pool.sizes(workers, threads, jobs=len(todo))
+    workers, threads = pool.sizes(workers, threads, jobs=len(todo), words="--threads")
     pool.check(workers, threads)
     yield from done.items()
     progress = _KindsOnce(progress_of(progress))

@@ -34,17 +34,17 @@ def results(work, jobs, *, workers=1, scheduler=None, say_line=None, tick=None):
     yield from dask_cluster.results(work, jobs, scheduler, say_line or (lambda sentence: None))
 
 
-def sizes(workers=None, threads=None, scheduler=None, jobs=MOST):
+def sizes(workers=None, threads=None, scheduler=None, jobs=MOST, words="--threads-per-worker"):
     """(processes, threads of each). Raises SceneError.
 
     Default: one thread on every core, or as many as fit the given number. (1, None): this process as it was started; (None,
-    threads): a running scheduler. Never more processes than jobs.
+    threads): a running scheduler. Never more processes than jobs. words: option of the threads.
     """
     from tehl_taichi.engine import cores
 
     if workers is not None and scheduler is not None:
         raise SceneError(f"--workers {workers} and --scheduler contradict each other; a running cluster has its own workers")
-    for name, number in (("--workers", workers), ("--threads-per-worker", threads)):
+    for name, number in (("--workers", workers), (words, threads)):
         if number is not None:
             integer(name, plain(number), 1, MOST)
     if scheduler is not None:

@@ -284,3 +284,9 @@ def test_every_idle_key_is_reported_once():
             once.warn_at(name, sentence)
     assert [text.partition(" has no effect")[0] for text in said if "has no effect" in text] == [
         "1: bodies.a.k", "1: fatigue.kappa", "1: time.courant", "3: thermal.nodes"]
+
+
+def test_wrong_numbers_of_threads_are_refused_by_the_name_of_their_option():
+    for words, said in ((dict(threads=0), "--threads = 0 is out of range"), (dict(workers=0), "--workers = 0 is out of range")):
+        with pytest.raises(SceneError, match=f"^{said}"):
+            next(outcomes.summaries([], "none", **words))
