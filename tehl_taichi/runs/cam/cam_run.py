@@ -4,8 +4,9 @@ from os import PathLike
 
 from tehl_taichi.errors import SceneError, interrupt
 from tehl_taichi.runs.bearing.ring_scenes import base_of, smooth
-from tehl_taichi.runs.cam import cam_table
+from tehl_taichi.runs.cam import cam_columns, cam_table, stored_cam
 from tehl_taichi.runs.cam.stored_cam import Cam
+from tehl_taichi.runs.flank import further_columns
 from tehl_taichi.runs.flank.flank_run import first_free_folder
 from tehl_taichi.runs.flank.line_contacts import scene_at, scene_with_grid_at
 from tehl_taichi.runs.flank.outcomes import summaries
@@ -31,6 +32,7 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     """Compute a cam: see :func:`tehl_taichi.cam`."""
     path = path_of("table", table)
     places = cam_table.load(path)
+    further_columns.check(path, places, stored_cam.KEYS, cam_columns.COLUMNS)
     start = find(scene) if scene is not None else smooth(built_in(SCENE))
     base = base_of(start, feature)
     changes = resolve([(words(key, value), key, value) for key, value in (changes or {}).items()])

@@ -4,7 +4,7 @@ import dataclasses
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.runs.flank import load_table, positions
+from tehl_taichi.runs.flank import flank_columns, further_columns, load_table, positions, stored_flank
 from tehl_taichi.runs.flank.mesh import Mesh
 from tehl_taichi.scene import scene, toml_file
 from tehl_taichi.scene.description import Scene
@@ -67,10 +67,17 @@ def flank_source(what):
         return FlankSource(what, scene(SCENE), gear_pair(what), source=PAIRS[what][1])
     path = path_of("gear", what)
     if ending(path) == ".csv":
-        return FlankSource(path.stem, scene(SCENE), table=tuple(load_table.load(path)), source=str(what))
+        return FlankSource(path.stem, scene(SCENE), table=_rows(path), source=str(what))
     if ending(path) == ".toml" or path.exists():
         return _from_file(path)
     return FlankSource(str(what), scene(SCENE), gear_pair(str(what)))
+
+
+def _rows(path):
+    """Positions of a table. Raises SceneError."""
+    places = tuple(load_table.load(path))
+    further_columns.check(path, places, stored_flank.KEYS, flank_columns.COLUMNS)
+    return places
 
 
 def _from_file(path):
@@ -89,7 +96,7 @@ def _from_file(path):
     beside = path.parent / named
     given = dict(name=data.get("name", path.stem), scene=find(str(beside) if beside.is_file() else named), source=str(path))
     if "table" in data:
-        return FlankSource(**given, table=tuple(load_table.load(path.parent / _text(data, "table"))))
+        return FlankSource(**given, table=_rows(path.parent / _text(data, "table")))
     base = dataclasses.asdict(gear_pair(_text(data, "base"))) if "base" in data else {}
     gear = data.get("gear", {})
     return FlankSource(**given, pair=build(GearPair, {**base, **gear} if isinstance(gear, dict) else gear, "gear"))

@@ -91,7 +91,9 @@ def test_figure_and_page_follow_the_angle(cycle):
     (HEAD, "0, 100, inf, inf, 1, 1\n", "makes no contact; allowed: one curved surface"),
     (HEAD, "0, 100, -3, inf, 1, 1\n", "R_a_mm = -3 mm is out of range"), (HEAD, "", "has 0 rows"),
     (HEAD, "0, 0, 18, inf, 1, 1\n", "no angle has a film; the first one: no load"),
-    (HEAD.replace("note", "angle_deg"), ROWS, "has the column angle_deg twice")])
+    (HEAD.replace("note", "angle_deg"), ROWS, "has the column angle_deg twice"),
+    (HEAD.replace("note", "p_Hertz_Pa"), ROWS, "p_Hertz_Pa is a name of the results; rename or remove"),
+    (HEAD.replace("note", "error_steady_h_c_m"), ROWS, "error_steady_h_c_m is a name of the results")])
 def test_wrong_tables_are_refused_in_a_sentence(tmp_path, head, rows, said):
     with pytest.raises(SceneError, match=said):
         tehl.cam(table(tmp_path, rows, head), folder=tmp_path / "c")

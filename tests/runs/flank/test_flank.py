@@ -290,3 +290,12 @@ def test_wrong_numbers_of_threads_are_refused_by_the_name_of_their_option():
     for words, said in ((dict(threads=0), "--threads = 0 is out of range"), (dict(workers=0), "--workers = 0 is out of range")):
         with pytest.raises(SceneError, match=f"^{said}"):
             next(outcomes.summaries([], "none", **words))
+
+
+@pytest.mark.parametrize("name", ["srr", "rho_a_m", "film_ratios", "p_Hertz_Pa", "load_N_m", "reason", "steady_h_c_m"])
+def test_further_columns_with_names_of_results_are_refused(tmp_path, name):
+    (tmp_path / "ltca.csv").write_text(TABLE.replace("note", name))
+    (tmp_path / "mine.toml").write_text('table = "ltca.csv"\n')
+    for file in ("ltca.csv", "mine.toml"):
+        with pytest.raises(SceneError, match=f"ltca.csv: {name} is a name of the results; rename or remove"):
+            flank_source(tmp_path / file)
