@@ -1,6 +1,7 @@
 """Stored sets of contacts: a folder with one JSON object, its table, its figure."""
 
 import contextlib
+import itertools
 import json
 import os
 from dataclasses import dataclass
@@ -10,6 +11,8 @@ from typing import Any, ClassVar, Self
 
 from tehl_taichi.disk import files, links, user_files
 from tehl_taichi.errors import StoreError
+
+DAMAGES = ValueError, KeyError, TypeError, AttributeError, RecursionError  # of a JSON file that tehl did not write
 
 
 @dataclass(frozen=True, repr=False)
@@ -30,16 +33,21 @@ class ContactSet:
         """Open the set in a folder. Raises StoreError."""
         file = cls._file(folder)
         try:
-            record = files.json_of(file)
-            inside = {name: dict(record[name]) for name in cls.TABLES}
-            found = cls(Path(folder), {**record, "name": str(record["name"]), **inside})
-            found._complete()
-            return found
+            return cls._read(folder)
         except OSError as error:
             raise StoreError(f"cannot read {file}: {error.strerror or error}") from None
-        except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        except DAMAGES as error:
             raise StoreError(f"{file} is damaged ({type(error).__name__}: {error}); repeat the tehl {cls.KIND} command to "
-                             "write it again") from None
+                             f"write it again with --out {folder}, which keeps a copy of this file") from None
+
+    @classmethod
+    def _read(cls, folder):
+        """The set in a folder. Raises OSError, or one of DAMAGES."""
+        record = files.json_of(cls._file(folder))
+        inside = {name: dict(record[name]) for name in cls.TABLES}
+        found = cls(Path(folder), {**record, "name": str(record["name"]), **inside})
+        found._complete()
+        return found
 
     @classmethod
     def _file(cls, folder):
@@ -51,23 +59,60 @@ class ContactSet:
         return cls._file(folder).is_file()
 
     @classmethod
-    def check_writable(cls, folder: Path) -> None:
-        """Raise StoreError if no set can be made or resumed in `folder`."""
+    def check_writable(cls, folder: Path, own: Self | None = None) -> None:
+        """Raise StoreError if no set can be made or resumed in `folder`, or if its set is another than `own`."""
         user_files.check_outside(folder)
         if not os.path.lexists(folder):
             return
         links.refuse(folder)
         if cls.lies_in(folder):
-            cls.open(folder)
+            cls._check_set(folder, own)
             files.remove_temporaries(folder)
         else:
-            cls._check_free(folder)
+            cls._check_kind(folder)
+            cls._check_free(folder, own)
 
     @classmethod
-    def _check_free(cls, folder):
-        """Refuse a folder with other contents."""
-        if any(Path(folder).iterdir()):
+    def _check_kind(cls, folder):
+        """Refuse the folder of a set of another kind."""
+        from tehl_taichi.runs.open_results import RUN, kind
+
+        if (other := kind(folder)) not in (RUN, cls.KIND):
+            raise StoreError(f"{folder} exists and is the folder of a {other}; choose another --out")
+
+    @classmethod
+    def _check_free(cls, folder, own):
+        """Refuse a folder with other contents than stores of `own`, which an interrupted command left."""
+        stores = {Path(one.get("store") or "").name for one in own._contacts} if own else set()
+        if any(path.name not in stores and not files.TEMPORARY.fullmatch(path.name) for path in Path(folder).iterdir()):
             raise StoreError(f"{folder} exists and is not the folder of a {cls.KIND}; choose another --out")
+
+    @classmethod
+    def _check_set(cls, folder, own):
+        """Refuse the folder of another set, whose results would be lost; keep a copy of a damaged file of this one."""
+        try:
+            found = cls._read(folder)
+        except OSError as error:
+            raise StoreError(f"cannot read {cls._file(folder)}: {error.strerror or error}") from None
+        except DAMAGES:
+            return cls._keep_copy(folder)
+        if own and found.name != own.name:
+            raise StoreError(f"{folder} holds {cls.KIND} {found.name}; choose another --out")
+        if own and (lost := own._lost(found)):
+            raise StoreError(f"{folder} holds {cls.KIND} {found.name} with the result of a contact that this command does not "
+                             f"have ({lost}); choose another --out")
+
+    @classmethod
+    def _keep_copy(cls, folder):
+        """Copy a damaged file to the first free name cam.json.damaged-N. Raises StoreError."""
+        file = cls._file(folder)
+        names = (file.with_name(f"{file.name}.damaged-{n}") for n in itertools.count(1))
+        with files.disk_errors(folder, "cannot write to"):
+            files.replace(next(name for name in names if not os.path.lexists(name)), files.content(file))
+
+    def _lost(self, stored):
+        """Words for a contact with a result in the `stored` set that this one has not; "" without one."""
+        return ""
 
     def _complete(self):
         """Access all values that a damaged record may lack, so that their errors are raised."""
@@ -134,7 +179,11 @@ class ContactSet:
 
 
 class PositionSet(ContactSet):
-    """Base of sets whose contacts form a sequence, as along a flank; a subclass reads one contact with :meth:`_position`."""
+    """Base of sets whose contacts form a sequence, as along a flank; a subclass reads one contact with :meth:`_position`, and
+    names in CONTACT the keys that describe it.
+    """
+
+    CONTACT: ClassVar[tuple[str, ...]] = ()
 
     @staticmethod
     def _position(one):
@@ -154,3 +203,11 @@ class PositionSet(ContactSet):
     def failed(self) -> list:
         """(position, reason) of all without a result."""
         return [(self._position(one), one["reason"]) for one in self.record["positions"] if one["summary"] is None]
+
+    def _lost(self, stored):
+        own = [self._description(one) for one in self._contacts]
+        lost = (one for one in stored._contacts if one["summary"] and self._description(one) not in own)
+        return next((f"{self._position(one).words}, {one['load_N_m']:g} N/m" for one in lost), "")
+
+    def _description(self, one):
+        return [one[key] for key in self.CONTACT]

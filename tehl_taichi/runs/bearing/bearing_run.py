@@ -1,13 +1,14 @@
 """Computation of a bearing: load of every element, contacts with both rings, their runs, the record of all."""
 
+import contextlib
 import dataclasses
 import math
+import os
 from os import PathLike
 from pathlib import Path
 
 from tehl_taichi.disk import files
-from tehl_taichi.errors import StoreError, interrupt
-from tehl_taichi.runs import single_run
+from tehl_taichi.errors import Error, StoreError, interrupt
 from tehl_taichi.runs.bearing import ellipse_slip, kinematics, load_distribution, ring_contacts, ring_scenes, stiffness
 from tehl_taichi.runs.bearing.bearing_source import bearing_source, default_scene
 from tehl_taichi.runs.bearing.dry_contact import dry_contact
@@ -16,7 +17,7 @@ from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
 from tehl_taichi.runs.bearing.static_safety import LIMITS, safety
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.flank.flank_run import first_free_folder
-from tehl_taichi.runs.flank.outcomes import summaries
+from tehl_taichi.runs.flank.outcomes import stored_outcomes, summaries
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.scene import Scene, grid_for_features, scene_file
 from tehl_taichi.scene.aliases import resolve, words
@@ -66,10 +67,10 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     choose = grid_for_features.is_grid_open(start, changes)
     loads, speeds, rings = solve_mechanics(found, base, changes, on if passing else "", choose)
     target = path_of("folder", folder) if folder else first_free_folder(found.name)
-    Bearing.check_writable(target)
-    _check_stores(target, rings)
-    record = bearing_record(found, target, loads, speeds, rings, roughness)
-    made = Bearing(target, record)
+    made = Bearing(target, bearing_record(found, target, loads, speeds, rings, roughness))
+    Bearing.check_writable(target, made)
+    made = _with_stored(made, rings)
+    _check_scenes(target, rings)
     made.write()
     write_scenes(target, rings)
     for case in (case for case in rings.values() if case.grid):
@@ -156,19 +157,37 @@ def _formula(made):
     return {"film_formula_m": heated_film(made), "film_formula": formula_words(made), "film_formula_spread": spread(made)}
 
 
-def _check_stores(folder, rings):
-    """Refuse a folder whose stores have other scenes, before anything in it is replaced. Raises StoreError."""
-    for case in rings.values():
-        store = Path(folder) / f"{case.scene.name}.zarr"
-        if store.exists() and single_run.open(store).scene != case.scene:
-            raise StoreError(f"{store} holds another scene ({case.scene.name} with other values); choose another folder")
+def _with_stored(made, rings):
+    """The bearing with the results in its stores. Raises StoreError for stores of other scenes, before anything is replaced."""
+    names = list(rings)
+    for n, outcome in stored_outcomes([case.scene for case in rings.values()], made.folder).items():
+        made = made.with_ring(names[n], outcome)
+    return made
+
+
+def _check_scenes(folder, rings):
+    """Refuse a folder whose scene files have other scenes, which would be lost. Raises StoreError."""
+    for ring, case in rings.items():
+        file = Path(folder) / f"{ring}.toml"
+        if os.path.lexists(file) and not _describes(file, case.scene):
+            raise StoreError(f"{file} holds another scene than this command makes: it was changed, or made with other options. "
+                             "Choose another --out, or move the file away")
+
+
+def _describes(file, scene):
+    """Whether a scene file describes this scene, with other comments or without defaults, too."""
+    text = scene_file.dumps(scene)
+    with contextlib.suppress(OSError, ValueError, Error):
+        return files.text(file) == text or scene_file.dumps(find(str(file))) == text
+    return False
 
 
 def write_scenes(folder, rings):
-    """Write scene files with every value: FOLDER/inner.toml and outer.toml. Raises StoreError."""
+    """Write scene files with every value, FOLDER/inner.toml and outer.toml, unless they exist. Raises StoreError."""
     with files.disk_errors(folder, "cannot write to"):
         for ring, case in rings.items():
-            files.replace(Path(folder) / f"{ring}.toml", scene_file.dumps(case.scene).encode())
+            if not os.path.lexists(file := Path(folder) / f"{ring}.toml"):
+                files.replace(file, scene_file.dumps(case.scene).encode())
 
 
 def _run(made, rings, workers, threads, progress):

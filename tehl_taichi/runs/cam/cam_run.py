@@ -44,10 +44,11 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     if not scenes:
         raise SceneError(f"table {path}: no angle has a film; the first one: {places[0].without_film}")
     target = path_of("folder", folder) if folder else first_free_folder(path.stem)
-    Cam.check_writable(target)
+    made = Cam(target, cam_record(path, target, places, scenes))
+    Cam.check_writable(target, made)
     for grid in (grid for _, grid in found.values() if grid):
         progress_of(progress).say(grid)
-    return _run(Cam(target, cam_record(path, target, places, scenes)), scenes, workers, threads, progress)
+    return _run(made, scenes, workers, threads, progress)
 
 
 def _with_own_grid(*position):

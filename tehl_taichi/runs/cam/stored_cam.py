@@ -27,6 +27,7 @@ class Cam(PositionSet):
     """
 
     KIND = "cam"
+    CONTACT = ("angle_deg", "R_m", "u_a_m_s", "u_b_m_s", "load_N_m")
 
     @property
     def not_converged(self) -> list:

@@ -42,9 +42,9 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     places = found.positions(on, positions, at)
     scenes = [scene_at(scene or found.scene, changes, found.name, n, place) for n, place in enumerate(places, 1)]
     target = path_of("folder", folder) if folder else first_free_folder(found.name)
-    Flank.check_writable(target)
     subject = describe(found, target, (on or "pinion") if found.pair else "")
     outcomes = [Outcome(target / f"{one.name}.zarr", reason=WAITING) for one in scenes]
+    Flank.check_writable(target, Flank(target, flank_record(subject, places, scenes, outcomes)))
     done = 0
     try:
         for n, outcome in summaries(scenes, target, workers, threads, progress):

@@ -30,7 +30,7 @@ def summaries(scenes, folder, workers=None, threads=None, progress=None):
     keeps all stored data.
     """
     places = [(scene, Path(folder) / f"{scene.name}.zarr") for scene in scenes]
-    done = {n: outcome for n, place in enumerate(places) if (outcome := _stored_outcome(*place))}
+    done = stored_outcomes(scenes, folder)
     todo = [n for n in range(len(places)) if n not in done]
     workers, threads = pool.sizes(workers, threads, jobs=len(todo), words="--threads")
     pool.check(workers, threads)
@@ -38,6 +38,12 @@ def summaries(scenes, folder, workers=None, threads=None, progress=None):
     progress = _KindsOnce(progress_of(progress))
     yield from _run(places, todo, workers, threads, progress)
     progress.stage(STAGE, len(places), len(places))
+
+
+def stored_outcomes(scenes, folder):
+    """{number of a scene: its Outcome} in the finished stores of `folder`. Raises StoreError for a store of another scene."""
+    places = enumerate((scene, Path(folder) / f"{scene.name}.zarr") for scene in scenes)
+    return {n: outcome for n, place in places if (outcome := _stored_outcome(*place))}
 
 
 def _stored_outcome(scene, path):

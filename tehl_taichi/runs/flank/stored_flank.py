@@ -28,6 +28,7 @@ class Flank(PositionSet):
     """
 
     KIND = "flank"
+    CONTACT = ("point", "x_pl_m", "R_m", "u_a_m_s", "u_b_m_s", "load_N_m")
     TABLES = ("geometry",)
 
     @property
@@ -49,7 +50,7 @@ class Flank(PositionSet):
         return f"{self.name}: flank of the {pair['on']}, {pair['torque']:g} N m and {pair['n1']:g} 1/min at the pinion"
 
     @classmethod
-    def _check_free(cls, folder):
+    def _check_free(cls, folder, own):
         if (table := folder / f"{cls.KIND}.csv").exists():
             raise StoreError(f"{table} exists and is not a table of a flank; choose another --out")
 

@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import shutil
 
 import made_results
 import numpy as np
@@ -18,6 +19,7 @@ from tehl_taichi.runs.bearing import bearing_figure, bearing_run, bearing_table
 from tehl_taichi.runs.bearing.bearing_source import bearing_source
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.flank.flank_columns import PASSAGE
+from tehl_taichi.runs.flank.outcomes import Outcome
 from tehl_taichi.runs.open_results import kind
 from tehl_taichi.runs.sweep import case
 from tehl_taichi.scene import resolution, scene
@@ -277,6 +279,50 @@ def test_a_folder_of_something_else_is_kept(tmp_path):
     (tmp_path / "notes.txt").write_text("mine")
     with pytest.raises(StoreError, match="is not the folder of a bearing"):
         tehl.bearing("6206", run=False, folder=tmp_path)
+
+
+def test_another_bearing_does_not_replace_one(tmp_path):
+    """The command again does; a bearing of this name under another load would have other scenes."""
+    made = [tehl.bearing("6206", **DUTY, run=False, folder=tmp_path / "q") for _ in "ab"]
+    assert made[0].record == made[1].record == tehl.open(tmp_path / "q").record
+    with pytest.raises(StoreError, match="q holds bearing 6206; choose another --out"):
+        tehl.bearing("6203", **DUTY, run=False, folder=tmp_path / "q")
+    with pytest.raises(StoreError, match="inner.toml holds another scene .* made with other options"):
+        tehl.bearing("6206", load=2000.0, run=False, folder=tmp_path / "q")
+    with pytest.raises(StoreError, match="q exists and is the folder of a bearing; choose another --out"):
+        tehl.flank("fzg-c", at=["C"], folder=tmp_path / "q")
+    assert tehl.open(tmp_path / "q").record == made[0].record
+
+
+def test_changed_scene_files_are_kept(tmp_path):
+    keys = dict(**DUTY, run=False, folder=tmp_path / "q")
+    file = tmp_path / "q" / "inner.toml"
+    tehl.bearing("6206", **keys)
+    for text in (f"# mine\n{file.read_text()}", file.read_text().replace("nx = 128", "nx = 256"), "not TOML"):
+        file.write_text(text)
+        if text.startswith("# mine"):
+            tehl.bearing("6206", **keys)
+        else:
+            with pytest.raises(StoreError, match="inner.toml holds another scene than this command makes: it was changed"):
+                tehl.bearing("6206", **keys)
+        assert file.read_text() == text
+
+
+def test_results_stay_where_the_command_comes_again_without_a_run(tmp_path, monkeypatch):
+    stored = lambda scenes, folder: {0: Outcome(tmp_path / "x.zarr", {"steady": {"h_c_m": 1e-7}})}  # noqa: E731
+    monkeypatch.setattr(bearing_run, "stored_outcomes", stored)
+    found = tehl.bearing("6206", **DUTY, run=False, folder=tmp_path / "q")
+    assert found.rings["inner"]["summary"] == {"steady": {"h_c_m": 1e-7}} and found.rings["outer"]["summary"] is None
+
+
+def test_a_damaged_file_is_written_again_beside_its_copy(tmp_path, dry):
+    folder = tmp_path / "b6206"
+    shutil.copytree(dry.folder, folder)
+    for n in (1, 2):
+        (folder / "bearing.json").write_text('{"name": 1}')
+        found = tehl.bearing("6206", **DUTY, roughness=0.1e-6, run=False, folder=folder)
+        assert tehl.open(folder).record == found.record
+        assert (folder / f"bearing.json.damaged-{n}").read_text() == '{"name": 1}'
 
 
 @pytest.mark.parametrize("text", ["{", "[]", '{"name": "b", "geometry": 3}', '{"name": "b", "geometry": {}, "inner": 1}'])

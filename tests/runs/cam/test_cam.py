@@ -116,6 +116,32 @@ def test_a_damaged_folder_is_refused_in_a_sentence(tmp_path, text):
         tehl.open(tmp_path)
 
 
+def test_the_command_again_writes_a_damaged_file_and_more_angles_but_no_other_cam(tmp_path, monkeypatch):
+    monkeypatch.setattr(case, "run_case", lambda job, *_: position(job))
+    keys = dict(folder=tmp_path / "c", workers=1)
+    first = tehl.cam(table(tmp_path), **keys)
+    (tmp_path / "c" / "cam.json").write_text('{"name": 1}')
+    assert tehl.cam(table(tmp_path), **keys).record == first.record == tehl.open(tmp_path / "c").record
+    assert (tmp_path / "c" / "cam.json.damaged-1").read_text() == '{"name": 1}'
+    assert len(tehl.cam(table(tmp_path, f"{ROWS}70, 50, 18, inf, 2.0, 1.0, \n"), **keys).rows) == 6
+    with pytest.raises(StoreError, match="c holds cam cam with the result of a contact that .* .70 deg, 50000 N/m.; choose"):
+        tehl.cam(table(tmp_path), **keys)
+    (tmp_path / "other.csv").write_text((tmp_path / "cam.csv").read_text())
+    with pytest.raises(StoreError, match="c holds cam cam; choose another --out"):
+        tehl.cam(tmp_path / "other.csv", **keys)
+    assert len(tehl.open(tmp_path / "c").rows) == 6
+
+
+def test_a_cam_that_was_stopped_in_its_first_angle_is_resumed(tmp_path, cycle):
+    """Its folder has a store and no cam.json."""
+    (tmp_path / "cam-01.zarr").mkdir()
+    (tmp_path / ".cam.json.0123456789abcdef.tmp").touch()
+    tehl.Cam.check_writable(tmp_path, cycle)
+    (tmp_path / "cam-99.zarr").mkdir()
+    with pytest.raises(StoreError, match="is not the folder of a cam"):
+        tehl.Cam.check_writable(tmp_path, cycle)
+
+
 @pytest.mark.slow
 def test_a_cycle_is_computed(taichi_cpu, tmp_path):
     """The faster, rounder side has the thicker film; a mirrored contact equals its image."""

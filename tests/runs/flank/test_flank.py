@@ -67,8 +67,13 @@ def test_a_finished_flank_is_read_not_run(steady, monkeypatch):
 
 
 def test_a_folder_of_another_flank_is_refused_before_anything_runs(steady):
-    with pytest.raises(tehl.Error, match="holds another scene .*; choose another folder"):
-        tehl.flank("fzg-c", torque=200.0, at=("A", "C"), steady=True, changes=SMALL, folder=steady.folder)
+    keys = dict(at=("A", "C"), steady=True, folder=steady.folder)
+    for others, said in ((dict(torque=200.0), "holds flank fzg-c with the result of a contact .*x_pl = -9.502 mm, .* N/m"),
+                         (dict(at=("C",)), "holds flank fzg-c with the result of a contact"),
+                         (dict(gear="fzg-a"), "holds flank fzg-c; choose another --out"),
+                         (dict(changes={**SMALL, "temperature": 70.0}), "holds another scene .*; choose another folder")):
+        with pytest.raises(tehl.Error, match=said):
+            tehl.flank(**{"gear": "fzg-c", "changes": SMALL, **keys, **others})
 
 
 @pytest.mark.rendered
