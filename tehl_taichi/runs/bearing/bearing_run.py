@@ -16,11 +16,10 @@ from tehl_taichi.runs.bearing.ring_contacts import RINGS
 from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
 from tehl_taichi.runs.bearing.static_safety import LIMITS, safety
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
-from tehl_taichi.runs.flank.flank_run import first_free_folder
+from tehl_taichi.runs.flank.flank_run import all_changes, first_free_folder
 from tehl_taichi.runs.flank.outcomes import stored_outcomes, summaries
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.scene import Scene, grid_for_features, scene_file
-from tehl_taichi.scene.aliases import resolve, words
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.film_formula import formula_words, heated_film, spread
 from tehl_taichi.scene.scales import reduced_modulus
@@ -61,23 +60,32 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     found = bearing_source(what, {**(dimensions or {}), "load": load, "axial": axial, "speed": speed})
     start = find(scene) if scene is not None else found.scene or default_scene()
     base = ring_scenes.base_of(start, feature)
-    passing = bool(base.features) and not steady and (feature is not None or scene is not None or found.scene is not None)
-    changes = resolve([(words(key, value), key, value) for key, value in (changes or {}).items()])
+    changes = all_changes(changes or {}, steady)
     ring_scenes.check_free(changes)
+    steady = bool(changes.get("time.steady_only"))
+    passing = bool(base.features) and not steady and (feature is not None or scene is not None or found.scene is not None)
+    doubts = [] if passing else ring_scenes.idle_words(base, changes)
     choose = grid_for_features.is_grid_open(start, changes)
     loads, speeds, rings = solve_mechanics(found, base, changes, on if passing else "", choose)
     target = path_of("folder", folder) if folder else first_free_folder(found.name)
-    made = Bearing(target, bearing_record(found, target, loads, speeds, rings, roughness))
+    made = Bearing(target, bearing_record(found, target, loads, speeds, rings, roughness, doubts))
     Bearing.check_writable(target, made)
     made = _with_stored(made, rings)
     _check_scenes(target, rings)
     made.write()
     write_scenes(target, rings)
-    for case in (case for case in rings.values() if case.grid):
-        progress_of(progress).say(case.grid)
+    _report(progress_of(progress), rings, doubts)
     if workers is None and threads is None and passing:
         workers = 1  # all cores for the passage, which takes minutes, the other ring seconds
     return _run(made, rings, workers, threads, progress) if run else made
+
+
+def _report(progress, rings, doubts):
+    """Report the grids that were chosen, and the keys without effect."""
+    for case in (case for case in rings.values() if case.grid):
+        progress.say(case.grid)
+    for sentence in doubts:
+        progress.warn(sentence)
 
 
 def solve_mechanics(found, base, changes, on, choose=False):
@@ -102,7 +110,7 @@ def _ring(found, base, changes, contact, loads, speeds, E, passes, choose):
     return RingCase(contact, dry, slip, made, words)
 
 
-def bearing_record(found, folder, loads, speeds, rings, roughness):
+def bearing_record(found, folder, loads, speeds, rings, roughness, doubts=()):
     """JSON object of `tehl bearing --json` before the runs."""
     which, one = found.bearing, rings["inner"].scene
     return plain({
@@ -115,6 +123,7 @@ def bearing_record(found, folder, loads, speeds, rings, roughness):
         "loaded": loads.loaded, "axial_load_N": loads.axial_load, "radial_displacement_m": loads.radial,
         "axial_displacement_m": loads.axial, "cage_speed_1_min": speeds.cage * 30 / math.pi,
         "element_passes_per_s": speeds.element_passes, "static_limit_Pa": LIMITS[which.element],
+        "warnings": list(doubts),
         **{ring: _ring_record(which, case, speeds, folder) for ring, case in rings.items()}})
 
 

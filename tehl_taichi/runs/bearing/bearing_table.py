@@ -171,12 +171,13 @@ def estimated_words(bearing):
 
 
 def warnings(bearing):
-    """Warnings of both runs, each once; a warning of one ring only begins with its name."""
+    """Warnings of the bearing and of both runs, each once; a warning of one ring only begins with its name."""
     places: dict[str, list[str]] = {}
     for name, ring in bearing.rings.items():
         for sentence in (ring["summary"] or {}).get("warnings", []):
             places.setdefault(sentence, []).append(name)
-    return [sentence if len(names) == len(RINGS) else f"{names[0]} ring: {sentence}" for sentence, names in places.items()]
+    of_runs = [sentence if len(names) == len(RINGS) else f"{names[0]} ring: {sentence}" for sentence, names in places.items()]
+    return [*bearing.record.get("warnings", []), *of_runs]
 
 
 def csv_text(bearing):

@@ -6,9 +6,10 @@ import math
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.bearing.dry_contact import LINE
 from tehl_taichi.runs.flank.line_contacts import room
-from tehl_taichi.scene import grid_for_features
+from tehl_taichi.scene import grid_for_features, idle_keys
 from tehl_taichi.scene.aliases import BY_SURFACE, full_name
 from tehl_taichi.scene.description import Scene
+from tehl_taichi.values.coded_warning import unique
 
 STEADY_GRID = {"grid.nx": 128, "grid.ny": 32}  # of steady contacts, unless the caller or the scene says otherwise
 OF_PASSAGES = ("time.", "feature.", "fatigue.")  # keys that say nothing of the ring without features
@@ -29,6 +30,15 @@ def check_free(changes):
     for key in map(full_name, changes):
         if key.startswith("contact.") or key in ("operation.u_m", "operation.srr", *BY_SURFACE):
             raise SceneError(f"{key} has no effect: dimensions, load and speed of the bearing set it")
+
+
+def idle_words(base, changes):
+    """Warnings about changes of a passage where nothing passes; [] without any. Raises SceneError for wrong keys and values."""
+    given = {full_name(key): value for key, value in changes.items() if full_name(key).startswith(OF_PASSAGES)}
+    features = {key: value for key, value in given.items() if key.startswith("feature.")}
+    others = {"time.steady_only": False, **{key: value for key, value in given.items() if key not in features}}
+    found = [*idle_keys.doubts(base.replace(**features)), *idle_keys.doubts(smooth(base).replace(**others))]
+    return unique(one for one in found if one.data["key"] in given)
 
 
 def ring_scene(base, changes, name, contact, dry, u_m, srr, passes, choose=False):

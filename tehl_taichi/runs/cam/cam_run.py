@@ -7,13 +7,12 @@ from tehl_taichi.runs.bearing.ring_scenes import base_of, smooth
 from tehl_taichi.runs.cam import cam_columns, cam_table, stored_cam
 from tehl_taichi.runs.cam.stored_cam import Cam
 from tehl_taichi.runs.flank import further_columns
-from tehl_taichi.runs.flank.flank_run import first_free_folder
+from tehl_taichi.runs.flank.flank_run import all_changes, first_free_folder
 from tehl_taichi.runs.flank.line_contacts import scene_at, scene_with_grid_at
 from tehl_taichi.runs.flank.outcomes import summaries
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.scene import Scene, grid_for_features
 from tehl_taichi.scene import scene as built_in
-from tehl_taichi.scene.aliases import resolve, words
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.store.json_values import plain
@@ -35,8 +34,9 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     further_columns.check(path, places, stored_cam.KEYS, cam_columns.COLUMNS)
     start = find(scene) if scene is not None else smooth(built_in(SCENE))
     base = base_of(start, feature)
-    changes = resolve([(words(key, value), key, value) for key, value in (changes or {}).items()])
-    passes = {"time.steady_only": not base.features or steady}
+    changes = all_changes(changes or {}, steady)
+    steady = not base.features or changes.get("time.steady_only", False)
+    passes = {"time.steady_only": steady}
     own, choose = base if base.features and not steady else smooth(base), grid_for_features.is_grid_open(start, changes)
     chosen = scene_with_grid_at if choose and feature is not None and not steady else _with_own_grid
     found = {n: chosen(own, {**changes, **passes}, path.stem, n + 1, at) for n, at in enumerate(places) if not at.without_film}

@@ -38,7 +38,7 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
           workers: int | None = None, threads: int | None = None, progress: Progress | None = None) -> Flank:
     """Compute a flank: see :func:`tehl_taichi.flank`."""
     found, scene = flank_source(gear).changed(torque, speed), None if scene is None else find(scene)
-    changes = _all_changes(changes or {}, steady)
+    changes = all_changes(changes or {}, steady)
     places = found.positions(on, positions, at)
     scenes = [scene_at(scene or found.scene, changes, found.name, n, place) for n, place in enumerate(places, 1)]
     target = path_of("folder", folder) if folder else first_free_folder(found.name)
@@ -57,7 +57,7 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     return result
 
 
-def _all_changes(changes, steady):
+def all_changes(changes, steady):
     """{full key: value} of all changes. Raises SceneError if `steady` contradicts a change."""
     return resolve([*((words(key, value), key, value) for key, value in changes.items()),
                     *[("steady = True", "time.steady_only", True)] * steady])

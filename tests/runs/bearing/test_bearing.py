@@ -275,6 +275,35 @@ def test_wrong_calls_are_refused_before_anything_is_written(tmp_path, options, s
     assert not (tmp_path / "b").exists()
 
 
+@pytest.mark.parametrize("changes, said", [
+    ({"fatigue.kapa": 0.2}, "unknown key fatigue.kapa .did you mean 'kappa'"),
+    ({"feature.hieght": 1}, "unknown key feature.hieght"), ({"time.foo": 3}, "unknown key time.foo"),
+    ({"kappa": 7.0}, "fatigue.kappa = 7 is out of range"),
+    ({"time.steps": 3, "time.steady_only": True}, "contradict each other")])
+def test_keys_of_a_passage_are_checked_where_nothing_passes(tmp_path, changes, said):
+    for steady in (False, True):
+        with pytest.raises(SceneError, match=said):
+            tehl.bearing("6206", changes=changes, steady=steady, run=False, folder=tmp_path / "b")
+    assert not (tmp_path / "b").exists()
+
+
+def test_keys_of_a_passage_have_no_effect_where_nothing_passes(tmp_path):
+    """For commands and Python, in the record and at once."""
+    said = []
+    listener = tehl.Progress()
+    listener.warn = said.append
+    keys = {"kappa": 0.2, "height": 1e-6, "time.courant": 0.3, "time.steps": 3}
+    found = tehl.bearing("6206", changes=keys, run=False, folder=tmp_path / "b", progress=listener)
+    assert [one.partition(" has no effect here: ")[0] for one in said] == ["feature.height", "fatigue.kappa", "time.courant",
+                                                                           "time.steps"]
+    assert tehl.open(tmp_path / "b").record["warnings"] == bearing_table.warnings(found) == said
+    dent = dict(feature=tehl.Feature(**DENT), run=False, progress=listener)
+    dented = tehl.bearing("6206", changes={**keys, "height": -1e-6}, folder=tmp_path / "d", **dent)
+    assert dented.record["warnings"] == [] and len(said) == 4
+    steady = tehl.bearing("6206", changes={"time.steady_only": True}, folder=tmp_path / "s", **dent)
+    assert not tehl.scene(steady.rings["inner"]["scene_file"]).transient
+
+
 def test_a_folder_of_something_else_is_kept(tmp_path):
     (tmp_path / "notes.txt").write_text("mine")
     with pytest.raises(StoreError, match="is not the folder of a bearing"):
