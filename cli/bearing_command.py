@@ -35,7 +35,9 @@ def bearing(
     Examples: `tehl bearing 6206 --load 5000 --speed 3000 --oil mineral-vg100 --temperature 70` · `tehl bearing mine
     --ball-diameter 12e-3 --balls 9 --pitch-diameter 60e-3 --load 6000` · `tehl bearing 6206 --dent 10e-6,0.3e-3,rim=1.2e-6`
     """
-    own = {"diameter": ball_diameter, "count": balls, "osculation_inner": osculation, "osculation_outer": osculation_outer}
+    element = None if ball_diameter is balls is None else "ball"
+    own = {"element": element, "diameter": ball_diameter, "count": balls, "osculation_inner": osculation,
+           "osculation_outer": osculation_outer}
     _compute(which, context, own, **shared)
 
 
@@ -57,8 +59,7 @@ def roller(
     Examples: `tehl roller 209-roller --load 4450 --speed 3000` · `tehl roller --roller-diameter 8e-3 --rollers 18
     --pitch-diameter 60e-3 --length 10e-3 --crown 2.5 --contact-angle 15 --taper 4 --load 6000`
     """
-    own = {"element": None if which.lower().endswith((".toml", "-roller")) else "roller", "diameter": roller_diameter,
-           "count": rollers, "length": length, "crown": crown, "taper": taper}
+    own = {"element": "roller", "diameter": roller_diameter, "count": rollers, "length": length, "crown": crown, "taper": taper}
     _compute(which, context, own, **shared)
 
 

@@ -115,8 +115,8 @@ def bearing_record(found, folder, loads, speeds, rings, roughness, doubts=()):
     which, one = found.bearing, rings["inner"].scene
     return plain({
         "name": found.name, "folder": str(folder), "source": found.source, "estimated": list(found.estimated),
-        "geometry": dataclasses.asdict(which), "materials": _materials(one), "oil": one.oil.name,
-        "temperature_C": one.operation.temperature, "roughness_Sq_m": roughness,
+        "changed": list(found.changed), "geometry": dataclasses.asdict(which), "materials": _materials(one),
+        "oil": one.oil.name, "temperature_C": one.operation.temperature, "roughness_Sq_m": roughness,
         "assumptions": _assumptions(which, loads, speeds, rings), "ball_load_max_N": loads.largest, "loads_N": loads.loads,
         "azimuths_deg": [math.degrees(one) for one in loads.azimuth],
         "contact_angles_deg": [math.degrees(one) for one in loads.angles],

@@ -4,8 +4,8 @@ import dataclasses
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.runs.bearing.designations import GROOVES, designation, key_of
-from tehl_taichi.runs.bearing.rolling_bearing import BALL, RollingBearing
+from tehl_taichi.runs.bearing.designations import GROOVES, designation, key_of, of_element
+from tehl_taichi.runs.bearing.rolling_bearing import BALL, ROLLER, RollingBearing
 from tehl_taichi.scene import scene, toml_file
 from tehl_taichi.scene.description import Scene
 from tehl_taichi.values.checks import build, file_name, nearest, text
@@ -16,19 +16,23 @@ from tehl_taichi.values.quantity import kinds
 
 KEYS = ("name", "base", "bearing", "scene")  # of a file
 SCENE = "gear"  # built-in scene that gives oil, bodies and numerics where none is named
+DUTY = ("clearance", "load", "axial", "speed", "outer_speed")  # no dimensions
+COMMANDS = {BALL: "bearing", ROLLER: "roller"}
 OWN = ("diameter", "count", "pitch_diameter")  # a bearing that brings these needs no designation
 
 
 @dataclass(frozen=True)
 class BearingSource:
     """Input of a bearing. name: of the folder and the stores; bearing; source: of its dimensions, as text; estimated: keys that
-    are not published; scene: oil, bodies and numerics, None if the caller has one.
+    are not published; changed: dimensions that are not those of the name; scene: oil, bodies and numerics, None if the caller
+    has one.
     """
 
     name: str
     bearing: RollingBearing
     source: str
     estimated: tuple = ()
+    changed: tuple = ()
     scene: Scene | None = None
 
     def __post_init__(self):
@@ -46,25 +50,50 @@ def bearing_source(what, given):
     path = path_of("bearing", what)
     if ending(path) == ".toml":
         return _from_file(path, given)
-    name, keys, source, estimated = _named(str(what), given)
-    return _made(name, {**keys, **given}, source, estimated, given)
+    return _named(str(what), given)
 
 
 def _named(name, given):
-    """(name, keys, source, estimated keys) of a designation; an unknown one needs given dimensions."""
+    """The BearingSource of a designation; an unknown one needs given dimensions."""
     key = key_of(name)
     if not key and given.keys() >= set(OWN):
-        return name, {}, "given", ()
+        made = build(RollingBearing, given, "bearing")
+        return BearingSource(name, made, "given", () if made.rollers else _not_given(GROOVES, given))
     found = designation(name)
-    return key, found.keys, found.source, found.estimated
+    _check_element(key, found.keys, given, of_element)
+    made = build(RollingBearing, {**found.keys, **given}, "bearing")
+    changed = _changed(found.keys, given, made)
+    source = f"{as_given(key, changed)}; otherwise {_source(found, changed)}" if changed else _source(found)
+    return BearingSource(key, made, source, _not_given(found.estimated, given), changed)
 
 
-def _made(name, keys, source, estimated, given, of_scene=None):
-    made = build(RollingBearing, keys, "bearing")
-    left = tuple(key for key in estimated if key not in given)
-    if source == "given" and not made.rollers:
-        left = tuple(key for key in GROOVES if key not in keys)
-    return BearingSource(name, made, source, left, of_scene)
+def _not_given(keys, given):
+    return tuple(key for key in keys if key not in given)
+
+
+def _source(found, changed=()):
+    """Source of a Designation, with its rating unless dimensions are changed."""
+    return "; ".join(filter(None, (found.source, "" if changed else found.rating, found.note)))
+
+
+def _changed(keys, given, made):
+    """Dimensions among the `given` keys of a bearing `made` that differ from these other keys."""
+    return tuple(key for key in given if key not in DUTY
+                 and getattr(made, key) != keys.get(key, getattr(RollingBearing, key)))
+
+
+def as_given(name, changed):
+    """Name of a bearing, with its changed dimensions."""
+    return f"{name}, with {' and '.join(changed)} as given" if changed else name
+
+
+def _check_element(name, keys, given, others=lambda element: ()):
+    """Refuse rollers for a ball bearing, and balls for a roller bearing; others: bearings with such elements. SceneError."""
+    own = keys.get("element", BALL)
+    if (wanted := given.get("element", own)) != own:
+        known = ", ".join(others(wanted))
+        raise SceneError(f"{name} is a {own} bearing, not a {wanted} bearing; use `tehl {COMMANDS.get(own, own)} {name}`"
+                         f"{f' (known with {wanted}s: {known})' if known else ''}")
 
 
 def _known(given):
@@ -88,13 +117,18 @@ def _from_file(path, given):
     if not isinstance(own, dict) or not (own or "base" in data):
         raise SceneError(f"{path} needs a table [bearing], or base = a designation")
     base: dict = {}
-    source, estimated = str(path), GROOVES if own.get("element", BALL) == BALL else ()
+    found = None
     if "base" in data:
         text("base", data["base"])
         found = designation(data["base"])
-        base, source, estimated = found.keys, f"{path} on {data['base']}: {found.source}", found.estimated
-    return _made(data.get("name", path.stem), {**base, **own, **given}, source, estimated, {**own, **given},
-                 _scene_beside(path, data["scene"]) if "scene" in data else None)
+        base = found.keys
+    _check_element(path, {**base, **own}, given)
+    made = build(RollingBearing, {**base, **own, **given}, "bearing")
+    estimated = found.estimated if found else () if made.rollers else GROOVES
+    source = f"{path} on {data['base']}: {_source(found, _changed(base, {**own, **given}, made))}" if found else str(path)
+    return BearingSource(data.get("name", path.stem), made, source, _not_given(estimated, {**own, **given}),
+                         _changed({**base, **own}, given, made),
+                         _scene_beside(path, data["scene"]) if "scene" in data else None)
 
 
 def _scene_beside(path, named):

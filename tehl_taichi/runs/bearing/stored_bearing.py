@@ -2,6 +2,7 @@
 
 from tehl_taichi.runs import machine_life
 from tehl_taichi.runs.bearing import bearing_table
+from tehl_taichi.runs.bearing.bearing_source import as_given
 from tehl_taichi.runs.bearing.ring_contacts import RINGS
 from tehl_taichi.runs.contact_set import ContactSet
 
@@ -46,7 +47,8 @@ class Bearing(ContactSet):
         """One-line description of the bearing."""
         one = self.record["geometry"]
         axial = f", {one['axial']:g} N axial" if one["axial"] else ""
-        return f"{self.name}: {one['load']:g} N radial{axial}, {one['speed']:g} 1/min, {self.record['oil']} at " \
+        name = as_given(self.name, self.record.get("changed", ()))
+        return f"{name}: {one['load']:g} N radial{axial}, {one['speed']:g} 1/min, {self.record['oil']} at " \
                f"{self.record['temperature_C']:g} deg C"
 
     def with_ring(self, ring, outcome):

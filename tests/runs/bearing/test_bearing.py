@@ -245,8 +245,44 @@ def test_a_file_without_a_scene_passes_no_feature(tmp_path):
 def test_suffixes_of_seals_and_clearance_make_no_other_balls(name):
     found = bearing_source(name, {})
     assert found.name == "6206" and found.bearing.count == 9 and found.bearing.clearance == 0
+    assert ("is ignored" in found.source) == (name != "6206")
     own = bearing_source(name, {"clearance": 15e-6})
     assert own.bearing.clearance == 15e-6 and bearing_source("209-ROLLER", {}).name == "209-roller"
+
+
+@pytest.mark.parametrize("name, key", [("209 roller", "209-roller"), ("209-Roller C3", "209-roller"), ("SKF  209", "209")])
+def test_the_longest_designation_counts(name, key):
+    assert bearing_source(name, {}).name == key
+
+
+@pytest.mark.parametrize("name", ["6206 tapered roller", "6206-needle", "209 ball roller", "6206 taper"])
+def test_words_are_no_suffix(name):
+    with pytest.raises(SceneError, match="is no suffix of seals, cage or clearance, and .* is a deep groove ball bearing"):
+        bearing_source(name, {})
+    own = dict(diameter=8e-3, count=18, pitch_diameter=0.06)
+    assert bearing_source(name, own).name == name
+
+
+@pytest.mark.parametrize("words, said", [
+    (("roller", "6206", "--length", "10e-3"), "6206 is a ball bearing, not a roller bearing; use `tehl bearing 6206`"),
+    (("roller", "mine.toml"), "mine.toml is a ball bearing, not a roller bearing; use `tehl bearing mine.toml`"),
+    (("bearing", "209-roller", "--balls", 5), "209-roller is a roller bearing, not a ball bearing; use `tehl roller")])
+def test_balls_do_not_become_rollers(tmp_path, words, said):
+    (tmp_path / "mine.toml").write_text('base = "6206"\n')
+    found = here(*words, "--no-run", "--no-figure", cwd=tmp_path)
+    assert found.returncode == 2 and said in " ".join(found.stderr.split()) and not (tmp_path / "runs").exists()
+
+
+def test_changed_dimensions_are_named_and_have_no_rating(tmp_path):
+    found = tehl.bearing("6206", dimensions={"count": 5, "diameter": 14e-3}, run=False, folder=tmp_path / "b")
+    assert found.title.startswith("6206, with count and diameter as given: 1000 N radial")
+    assert found.record["source"].startswith("6206, with count and diameter as given; otherwise SKF")
+    assert "11.2 kN" not in found.record["source"]
+    same = bearing_source("6206", {"count": 9, "load": 3000.0, "clearance": 1e-5})
+    assert same.changed == () and "11.2 kN" in same.source
+    (tmp_path / "mine.toml").write_text('base = "6206"\n[bearing]\ncount = 8\n')
+    own, more = bearing_source(tmp_path / "mine.toml", {}), bearing_source(tmp_path / "mine.toml", {"count": 7})
+    assert (own.changed, more.changed) == ((), ("count",)) and "11.2 kN" not in own.source + more.source
 
 
 @pytest.mark.parametrize("text, said", [("", "needs a table \\[bearing\\], or base = a designation"),
