@@ -90,10 +90,10 @@ def as_given(name, changed):
 def _check_element(name, keys, given, others=lambda element: ()):
     """Refuse rollers for a ball bearing, and balls for a roller bearing; others: bearings with such elements. SceneError."""
     own = keys.get("element", BALL)
-    if (wanted := given.get("element", own)) != own:
-        known = ", ".join(others(wanted))
-        raise SceneError(f"{name} is a {own} bearing, not a {wanted} bearing; use `tehl {COMMANDS.get(own, own)} {name}`"
-                         f"{f' (known with {wanted}s: {known})' if known else ''}")
+    if (sought := given.get("element", own)) != own:
+        known = ", ".join(others(sought))
+        raise SceneError(f"{name} is a {own} bearing, not a {sought} bearing; use `tehl {COMMANDS.get(own, own)} {name}`"
+                         f"{f' (known with {sought}s: {known})' if known else ''}")
 
 
 def _known(given):

@@ -33,7 +33,7 @@ def check_free(changes):
 
 
 def idle_words(base, changes):
-    """Warnings about changes of a passage where nothing passes; [] without any. Raises SceneError for wrong keys and values."""
+    """Warnings about keys of a passage in `changes` for steady contacts. Raises SceneError for wrong keys and values."""
     given = {full_name(key): value for key, value in changes.items() if full_name(key).startswith(OF_PASSAGES)}
     features = {key: value for key, value in given.items() if key.startswith("feature.")}
     others = {"time.steady_only": False, **{key: value for key, value in given.items() if key not in features}}
