@@ -72,11 +72,26 @@ def load(path):
     found = [_position(path, n, row, columns) for n, row in enumerate(rows, 2)]
     if not 1 <= len(found) <= MOST:
         raise SceneError(f"table {path} has {len(found)} rows; allowed: 1 to {MOST}")
+    _check_angles(path, [at.angle for at in found])
     return sorted(found, key=lambda at: at.angle)
 
 
+def _check_angles(path, angles):
+    """Refuse an angle with two rows: a cycle has one contact at each angle. Raises SceneError."""
+    rows = {angle: n for n, angle in reversed([*enumerate(angles, 2)])}  # the first row of each
+    for n, angle in enumerate(angles, 2):
+        if rows[angle] != n:
+            raise SceneError(f"table {path}, rows {rows[angle]} and {n}: both have the angle {angle:g} deg; allowed: one row "
+                             "for each angle")
+
+
 def _columns(path, names):
-    """{column: (factor, declaration)} of the table; it has either reduced radii or those of both surfaces."""
+    """{column: (factor, declaration)} of the table; it has either reduced radii or those of both surfaces. Raises
+    SceneError.
+    """
+    if (own := [name for name in BOTH if name in names]) and "R_mm" in names:
+        raise SceneError(f"table {path} has the columns R_mm and {own[0]}; allowed: the reduced radius R_mm, or R_a_mm and "
+                         "R_b_mm")
     radii = REDUCED if "R_mm" in names else BOTH
     if missing := [name for name in (*ALWAYS, *radii) if name not in names]:
         others = [name for name in names if name not in KNOWN]

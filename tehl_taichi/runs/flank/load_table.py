@@ -45,7 +45,12 @@ def _check_ways(path, found):
 
 
 def _check_names(path, names):
-    """Refuse a table without a needed column. Raises SceneError."""
+    """Refuse a table without a needed column, and a bulk temperature that would be kept as a further column. Raises
+    SceneError.
+    """
+    if BULK not in names and (like := [name for name in names if name.lower().startswith("bulk")]):
+        raise SceneError(f"table {path} has the column {like[0]!r}, which is no temperature with its unit; allowed: {BULK}, or "
+                         "another unit as in bulk_K")
     missing = [name for name in NEEDED if name not in names]
     if missing:
         named = ", ".join(f"{name}{nearest(name, [n for n in names if n not in NEEDED])}" for name in missing)

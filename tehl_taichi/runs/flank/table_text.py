@@ -7,10 +7,10 @@ import re
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values import units
-from tehl_taichi.values.column_mark import column_mark
+from tehl_taichi.values.column_mark import column_mark, wrong_length
 
 COMMA = re.compile(r"\s*([-+]?\d*),(\d+(?:[eE][-+]?\d+)?)\s*")  # a decimal one
-BRACKETS = re.compile(r"(.+?)\s*[\[(](.+)[\])]\s*")
+WITH_UNIT = re.compile(r"(\w+)\s*[/\[(]\s*(.+?)[\])]?\s*")  # load/N, load (N), load [N]
 SPEEDS = "u_a", "u_b"  # whose names have m_s in place of m_per_s
 # {usual name of a column: (its quantity, unit that the parser of units knows, factor to the unit of the usual name)}
 COLUMNS = {"angle_deg": ("angle", "deg", 1.0), "load_N_per_mm": ("load", "N/m", 1e-3), "u_a_m_s": ("u_a", "m/s", 1.0),
@@ -29,14 +29,22 @@ def rows(path):
             lines = [[value.strip() for value in line] for line in csv.reader(file, delimiter=mark, skipinitialspace=True)]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
-    lines = [line for line in lines if any(line)]
-    heads = lines[0] if lines else []
+    heads, *lines = [line for line in lines if any(line)] or [[]]
+    while heads and not heads[-1]:  # spreadsheets end lines with separators
+        heads.pop()
     columns = [_column(head) for head in heads]
     names = [name for name, _ in columns]
     if twice := sorted({name for name in names if name and names.count(name) > 1}):
         raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")
+    _check_lengths(path, len(names), lines)
     points = mark != ","
-    return names, [{name: _value(name, unit, text, points) for (name, unit), text in zip(columns, line)} for line in lines[1:]]
+    return names, [{name: _value(name, unit, text, points) for (name, unit), text in zip(columns, line)} for line in lines]
+
+
+def _check_lengths(path, count, lines):
+    for at, line in enumerate(lines, 2):
+        if said := wrong_length(line, count):
+            raise SceneError(f"table {path}, row {at} {said}")
 
 
 def _column(head):
@@ -51,8 +59,8 @@ def _column(head):
 
 
 def _units(head, quantity):
-    """Possible units in a column head, such as N/mm of load_N_per_mm or of load (N/mm), if they fit the quantity."""
-    if (match := BRACKETS.fullmatch(head)) and match[1] == quantity:
+    """Possible units in a column head, such as N/mm of load_N_per_mm or of load (N/mm), if it is one of the quantity."""
+    if (match := WITH_UNIT.fullmatch(head)) and match[1] == quantity:
         return [match[2]]
     if not head.startswith(f"{quantity}_"):
         return []

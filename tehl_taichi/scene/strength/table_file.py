@@ -12,7 +12,7 @@ from tehl_taichi.scene.strength.profiles import PROFILES
 from tehl_taichi.scene.strength.table import DEPTH, HARDNESS, KAPPA, LIMIT, RESIDUAL, YIELD
 from tehl_taichi.values.checks import nearest
 from tehl_taichi.values.coerce import shown
-from tehl_taichi.values.column_mark import column_mark
+from tehl_taichi.values.column_mark import column_mark, wrong_length
 from tehl_taichi.values.quantity import Number
 
 MOST, LARGEST = 500, 1e6  # rows, bytes
@@ -109,18 +109,16 @@ def _check_names(where, names):
 
 def _check_lengths(where, count, lines):
     for at, row in enumerate(lines, 1):
-        if any(row[count:]):
-            raise SceneError(f"{where}, row {at} has {len(row)} columns; allowed: {count}, as in the line of names (a decimal "
-                             "comma needs a semicolon between columns)")
+        if said := wrong_length(row, count):
+            raise SceneError(f"{where}, row {at} {said}")
 
 
 def _number(where, row, n, factor, declared):
     """Number in a row, in SI units. Raises SceneError."""
-    text = row[n] if n < len(row) else ""
     try:
-        value = float(text) * factor
+        value = float(row[n]) * factor
     except ValueError:
-        raise SceneError(f"{where} = {shown(text)} is not a number; allowed: {declared.allowed} {declared.unit}") from None
+        raise SceneError(f"{where} = {shown(row[n])} is not a number; allowed: {declared.allowed} {declared.unit}") from None
     declared.check(where, value if math.isfinite(value) else math.nan)
     return value
 

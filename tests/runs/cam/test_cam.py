@@ -87,10 +87,11 @@ def test_figure_and_page_follow_the_angle(cycle):
 
 @pytest.mark.parametrize("head, rows, said", [
     (HEAD.replace("load_N_per_mm", "load_N_mm"), ROWS, "no column load_N_per_mm .did you mean .load_N_mm...; needed: angle"),
-    (HEAD, "0, x, 18, inf, 1, 1\n", "row 2: load_N_per_mm = 'x' is not a number; allowed: 0 to 100000 N/mm"),
-    (HEAD, "0, 100, inf, inf, 1, 1\n", "makes no contact; allowed: one curved surface"),
-    (HEAD, "0, 100, -3, inf, 1, 1\n", "R_a_mm = -3 mm is out of range"), (HEAD, "", "has 0 rows"),
-    (HEAD, "0, 0, 18, inf, 1, 1\n", "no angle has a film; the first one: no load"),
+    (HEAD, "0, x, 18, inf, 1, 1,\n", "row 2: load_N_per_mm = 'x' is not a number; allowed: 0 to 100000 N/mm"),
+    (HEAD, "0, 100, 18, inf, 1, 1\n", "row 2 has 6 columns; allowed: 7, as in the line of names"),
+    (HEAD, "0, 100, inf, inf, 1, 1,\n", "makes no contact; allowed: one curved surface"),
+    (HEAD, "0, 100, -3, inf, 1, 1,\n", "R_a_mm = -3 mm is out of range"), (HEAD, "", "has 0 rows"),
+    (HEAD, "0, 0, 18, inf, 1, 1,\n", "no angle has a film; the first one: no load"),
     (HEAD.replace("note", "angle_deg"), ROWS, "has the column angle_deg twice"),
     (HEAD.replace("note", "p_Hertz_Pa"), ROWS, "p_Hertz_Pa is a name of the results; rename or remove"),
     (HEAD.replace("note", "error_steady_h_c_m"), ROWS, "error_steady_h_c_m is a name of the results")])
@@ -98,6 +99,20 @@ def test_wrong_tables_are_refused_in_a_sentence(tmp_path, head, rows, said):
     with pytest.raises(SceneError, match=said):
         tehl.cam(table(tmp_path, rows, head), folder=tmp_path / "c")
     assert not (tmp_path / "c").exists()
+
+
+@pytest.mark.parametrize("first, second", [("0", "0.0"), ("20", "2e1"), ("-20", "-20")])
+def test_an_angle_has_one_row(tmp_path, first, second):
+    rows = [f"{angle}, 100, 20, inf, 3.0, 1.0, \n" for angle in (first, "33", second)]
+    with pytest.raises(SceneError, match=f"rows 2 and 4: both have the angle {first} deg; allowed: one row for each angle"):
+        cam_table.load(table(tmp_path, "".join(rows)))
+
+
+@pytest.mark.parametrize("own", ["R_a_mm", "R_b_mm", "R_a_mm, R_b_mm"])
+def test_radii_are_of_one_kind(tmp_path, own):
+    head = f"angle_deg, load_N_per_mm, R_mm, {own}, u_a_m_s, u_b_m_s\n"
+    with pytest.raises(SceneError, match="has the columns R_mm and R_[ab]_mm; allowed: the reduced radius R_mm, or R_a_mm and"):
+        cam_table.load(table(tmp_path, "0, 100, 5, " + "12, " * len(own.split(",")) + "2, 1\n", head))
 
 
 def test_wrong_changes_and_folders_are_refused(tmp_path):

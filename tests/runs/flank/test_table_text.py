@@ -40,5 +40,39 @@ def test_a_unit_of_something_else_is_no_column(tmp_path):
         cam(tmp_path, CAM.replace("load_N_per_mm", "load_N"))
     with pytest.raises(SceneError, match="has the column load_N_per_mm twice"):
         cam(tmp_path, "angle_deg,load_N_per_mm,load_kN_per_m,R_mm,u_a_m_s,u_b_m_s\n0,1,1,1,1,1\n")
-    with pytest.raises(SceneError, match="row 2: u_b_m_s = None is not a number"):
-        cam(tmp_path, CAM.replace(", 0.6", ""))
+    with pytest.raises(SceneError, match="row 2: u_b_m_s = '' is not a number"):
+        cam(tmp_path, CAM.replace(", 0.6", ","))
+
+
+@pytest.mark.parametrize("cells, said", [
+    ("0,100,5,10,5,4", "has 6 columns; allowed: 5, as in the line of names .a decimal comma needs a semicolon"),
+    ("0,100,10,5", "has 4 columns; allowed: 5"), ("0", "has 1 column; allowed: 5")])
+def test_a_row_that_does_not_fit_its_names_is_refused(tmp_path, cells, said):
+    """Decimal commas between commas shift the columns."""
+    heads = "angle_deg,load_N_per_mm,R_mm,u_a_m_s,u_b_m_s"
+    for at, rows in enumerate((f"{cells}\n1,100,10,5,4", f"1,100,10,5,4\n{cells}"), 2):
+        with pytest.raises(SceneError, match=f"row {at} {said}"):
+            cam(tmp_path, f"{heads}\n{rows}\n")
+
+
+def test_empty_cells_beyond_the_names_count_as_none(tmp_path):
+    plain, ended = cam(tmp_path, CAM), cam(tmp_path, CAM.replace("\n", ",,\n"))
+    assert plain == ended and not ended[0].more
+    with pytest.raises(SceneError, match="row 2 has 7 columns"):
+        cam(tmp_path, CAM.replace("0.6\n", "0,6,1\n", 1).replace("u_b_m_s", "u_b_m_s,,"))
+
+
+@pytest.mark.parametrize("form", ["{}/{}", "{} / {}", "{}/({})", "{} ({})", "{}[{}]"])
+def test_units_after_a_slash_are_those_in_brackets(tmp_path, form):
+    heads = [form.format(*each) for each in (("angle", "deg"), ("load", "N/mm"), ("R", "cm"), ("u_a", "m/s"), ("u_b", "m/s"))]
+    found = cam(tmp_path, ";".join(heads) + "\n-20;116,4;1,66;2;0,6\n0;120;1,8;2,2;0,7\n")
+    for one, other in zip(found, cam(tmp_path, CAM), strict=True):
+        assert (one.angle, one.load, one.R) == pytest.approx((other.angle, other.load, other.R)) and not one.more
+
+
+@pytest.mark.parametrize("head", ["bulk", "bulk_F", "bulk (F)", "Bulk temperature"])
+def test_a_bulk_temperature_in_no_known_unit_is_not_ignored(tmp_path, head):
+    path = tmp_path / "flank.csv"
+    path.write_text(f"x_pl_mm;R_a_mm;R_b_mm;load_N_per_mm;u_a_m_s;u_b_m_s;{head}\n-3,7;10,3;24,6;560;2,3;3,7;200\n")
+    with pytest.raises(SceneError, match="which is no temperature with its unit; allowed: bulk_C, or"):
+        load_table.load(path)
