@@ -1,19 +1,31 @@
 """Residual stress along the surface: a number, or rows of depth and stress, linear between them and constant beyond."""
 
 import csv
+import re
 from pathlib import Path
 
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.values.coerce import plain
-from tehl_taichi.values.column_mark import column_mark
+from tehl_taichi.values import units
+from tehl_taichi.values.coerce import plain, shown
+from tehl_taichi.values.column_mark import column_mark, wrong_length
 from tehl_taichi.values.quantity import Number
 
 LARGEST = 5e9  # Pa
 STRESS = Number("", "Pa", -LARGEST, LARGEST, usual=-2e8, least=1e5)
 DEPTH = Number("", "m", 0.0, 0.03, usual=1e-4)
 WANTED = "lines with depth in m and stress in Pa; a header line may name the columns"
+COMMA = re.compile(r",(?=\d)")  # a decimal one
+IN = re.compile(r"\s+in\s+", re.IGNORECASE)  # depth in m; the inch stands last
+BETWEEN = re.compile(r"[\s_()\[\]/,.;:*^-]+")  # words in the name of a column
+STATED = re.compile(r"[/(\[]\s*([^\s/()\[\]]+)\s*(?=[/)\]]|$)")  # one word in brackets or after a slash
+MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})
+PREFIXES = ("nano", "micro", "milli", "centi", "kilo", "mega", "giga", "inch")  # of units that are written in full
+SAME = {"m": ("m", "metre", "metres", "meter", "meters"), "Pa": ("pa", "pascal")}
+# {unit of a column: words for other units of its quantity, small letters}
+OTHERS = {"m": {"dm", "km", "mil", "mils", "thou", "ft", *map(str.lower, units.LENGTH)} - {"m"},
+          "Pa": {"hpa", "ksi", "msi", "tsi", "atm", "n", "kn", "kp", "kgf", "lbf", *map(str.lower, units.PRESSURE)} - {"pa"}}
 
 
 class ResidualStress:
@@ -67,37 +79,57 @@ def _words(text):
     lines = [(n, line) for n, line in lines if line]
     mark = column_mark("".join(line for _, line in lines))
     split = (lambda line: next(csv.reader([line], delimiter=mark))) if mark else str.split
-    return [(n, [word.strip() for word in split(line)]) for n, line in lines]
+    found = [(n, [word.strip() for word in split(line)]) for n, line in lines]
+    return found if mark == "," else [(n, [COMMA.sub(".", word) for word in words]) for n, words in found]
 
 
 def _rows(lines):
     """Array of rows (depth, stress) of such lines; a header line may name the columns. Raises ValueError."""
     if not lines:
         raise ValueError("it is empty")
-    columns = (0, 1)
-    if not all(map(_is_number, lines[0][1])):
-        columns, lines = _named(lines[0][1]), lines[1:]
-    elif len(lines[0][1]) != 2:
-        raise ValueError(f"line {lines[0][0]} has {len(lines[0][1])} columns, not two")
-    try:
-        return np.array([[float(words[column]) for column in columns] for _, words in lines], float).reshape(-1, 2)
-    except (ValueError, IndexError) as error:
-        raise ValueError(f"its lines differ in length or are not numbers ({error})") from None
+    columns, count, why, head = (0, 1), 2, "depth and stress", lines[0][1]
+    while head and not head[-1]:  # spreadsheets end lines with separators
+        head.pop()
+    if not all(map(_is_number, head)):
+        columns, count, why, lines = _named(head), len(head), "as in the line of names", lines[1:]
+    if not lines:
+        raise ValueError("it has no numbers below its line of names")
+    for n, words in lines:
+        if said := wrong_length(words, count, why):
+            raise ValueError(f"line {n} {said}")
+    return np.array([[_number(n, words[column]) for column in columns] for n, words in lines], float)
 
 
 def _named(head):
     """Columns of depth and stress, (number, number), by their names in the header. Raises ValueError, also for units other than
-    SI.
+    m and Pa.
     """
     found = [[n for n, word in enumerate(head) if any(part in word.lower() for part in parts)]
              for parts in (("depth",), ("stress", "sigma", "residual"))]
     if [len(columns) for columns in found] != [1, 1]:
         raise ValueError(f"its first line, {', '.join(head)[:80]!r}, names no depth and stress")
-    for (column,), unit in zip(found, ("m", "Pa")):
-        own = head[column].replace("(", " ").replace("[", " ").replace("_", " ").rstrip(" )]").split()[-1]
-        if own.lower().endswith(unit.lower()) and own.lower() != unit.lower() and len(own) <= len(unit) + 1:
+    for (column,), unit in zip(found, OTHERS):
+        if own := _other_unit(head[column], unit):
             raise ValueError(f"its column {head[column]!r} is in {own}, not in {unit}")
     return tuple(columns[0] for columns in found)
+
+
+def _other_unit(name, unit):
+    """Word in the name of a column that is a unit other than `unit`, "" without one."""
+    words = [word for word in BETWEEN.split(IN.sub(" ", name)) if word]
+    stated = [match[1] for match in STATED.finditer(IN.sub("/", name))]
+    others = [word for word in words if _is_other(word.translate(MICRO).lower(), unit)]
+    return next(iter([*others, *(word for word in stated if word.lower() not in SAME[unit])]), "")
+
+
+def _is_other(word, unit):
+    return word in OTHERS[unit] or word.startswith(PREFIXES)
+
+
+def _number(n, word):
+    if not _is_number(word):
+        raise ValueError(f"line {n}: {shown(word)} is not a number")
+    return float(word)
 
 
 def _is_number(word):

@@ -8,12 +8,12 @@ def column_mark(text):
     return next((mark for mark in MARKS if mark in text), None)
 
 
-def wrong_length(row, count):
-    """End of a sentence about a row with more or fewer cells than the `count` names above it; "" for a row that fits.
+def wrong_length(row, count, why="as in the line of names"):
+    """End of a sentence about a row with more or fewer cells than `count`; "" for a row that fits.
 
     Empty cells beyond the names count as none: spreadsheets end lines with separators.
     """
     if len(row) >= count and not any(row[count:]):
         return ""
-    return (f"has {len(row)} column{'s' * (len(row) != 1)}; allowed: {count}, as in the line of names (a decimal comma needs a "
-            "semicolon between columns)")
+    return (f"has {len(row)} column{'s' * (len(row) != 1)}; allowed: {count}, {why} (a decimal comma needs a semicolon between "
+            "columns)")

@@ -144,6 +144,48 @@ def test_bad_residual_stress_is_refused(given):
         ResidualStress(given)
 
 
+DEPTHS = [[0.0, -2e8], [2e-5, 1e8]]
+
+
+def residual(tmp_path, text):
+    (tmp_path / "depths.csv").write_text(text)
+    return read(str(tmp_path / "depths.csv"))
+
+
+@pytest.mark.parametrize("head", [
+    "depth_m,stress_Pa", "depth/m,stress/Pa", "depth in m,stress in Pa", "depth (m),residual [Pa]",
+    "Depth below surface,sigma_xx", "depth,residual stress axial / (Pa)", "depth metres,stress PA"])
+def test_heads_in_m_and_pa_are_read(tmp_path, head):
+    assert residual(tmp_path, f"{head}\n0,-2e8\n20e-6,1e8\n").tolist() == DEPTHS
+
+
+@pytest.mark.parametrize("head", ["depth_{}", "depth/{}", "depth ({})", "depth in {}", "depth {}", "depth [{}]"])
+@pytest.mark.parametrize("unit, own", [
+    *((unit, "m") for unit in ("mm", "um", "\u00b5m", "microns", "millimetres", "mil", "in", "inches")),
+    *((unit, "Pa") for unit in ("MPa", "ksi", "psi", "GPa", "bar", "megapascal", "kgf"))])
+def test_another_unit_in_a_head_is_refused(tmp_path, head, unit, own):
+    names = [head.format(unit), "stress"] if own == "m" else ["depth", head.format(unit).replace("depth", "stress")]
+    with pytest.raises(SceneError, match=f"its column '.*' is in {unit}, not in {own}; allowed: lines with depth in m"):
+        residual(tmp_path, f"{','.join(names)}\n0,-2e8\n20e-6,1e8\n")
+
+
+@pytest.mark.parametrize("text", [
+    "0;-2e8\n0,00002;1e8\n", "depth;stress;\n0;-2e8;\n0,00002;1e8;\n", "depth\tstress\n0\t-2e8\n,00002\t1e8\n",
+    "stress,depth,note\n-2e8,0,top\n1e8,20e-6,\n", "0,-2e8,\n20e-6,1e8,\n"])
+def test_tables_of_spreadsheets(tmp_path, text):
+    assert residual(tmp_path, text).tolist() == DEPTHS
+
+
+@pytest.mark.parametrize("text, said", [
+    ("0,-2e8\n0,00002,1e8", "line 2 has 3 columns; allowed: 2, depth and stress"),
+    ("depth,stress\n0,-2e8\n0,00002,1e8", "line 3 has 3 columns; allowed: 2, as in the line of names .a decimal comma"),
+    ("depth,stress\n0,-2e8\n20e-6", "line 3 has 1 column; allowed: 2"),
+    ("depth,stress\n0,high", "line 2: 'high' is not a number"), ("depth,stress\n", "it has no numbers"), ("", "it is empty")])
+def test_lines_of_another_length_are_refused(tmp_path, text, said):
+    with pytest.raises(SceneError, match=said):
+        residual(tmp_path, text)
+
+
 def test_oil_inside_adds_its_pressure_to_the_faces():
     """Pulled along x by 1e8, half of a pressure of 1e8 inside: as tension reaches 1.5e8."""
     pressed = plane(1e8, -1e8)

@@ -101,7 +101,8 @@ def test_a_table_of_residual_stress(tmp_path, text, rows):
 @pytest.mark.parametrize("text, said", [
     ("0,0,-2e8\n1,1e-4,0\n", "line 1 has 3 columns"), ("x,y\n0,-2e8\n", "names no depth and stress"), ("", "it is empty"),
     ("depth_um,stress_MPa\n0,-200\n50,0\n", "'depth_um' is in um, not in m"),
-    ("depth (m);stress (MPa)\n0;-200\n5e-5;0\n", r"'stress \(MPa\)' is in MPa, not in Pa"), ("0,-2e8\n1e-4\n", "differ")])
+    ("depth (m);stress (MPa)\n0;-200\n5e-5;0\n", r"'stress \(MPa\)' is in MPa, not in Pa"),
+    ("0,-2e8\n1e-4\n", "line 2 has 1 column; allowed: 2")])
 def test_a_table_of_residual_stress_that_is_refused(tmp_path, text, said):
     (tmp_path / "t.csv").write_text(text)
     with pytest.raises(SceneError, match=said):
