@@ -6,6 +6,7 @@ import numpy as np
 
 from tehl_taichi.fatigue import findley
 from tehl_taichi.scene import SceneError
+from tehl_taichi.values.arrays import floats
 from tehl_taichi.values.quantity import Number
 
 LARGEST = Number("", "Pa", -1e12, 1e12, usual=4e8, least=1e5)
@@ -60,10 +61,17 @@ def are_stresses(of):
     return hasattr(of, "__array__")
 
 
-def _check_size(stresses):
-    """Raise SceneError for stresses that are too small or too large for Pa: any contact load causes some MPa."""
-    if stresses.size and np.isfinite(stresses).all():
-        LARGEST.check("the largest of the given stresses", float(stresses.flat[np.argmax(np.abs(stresses))]))
+def _check(stresses):
+    """Refuse another shape, values that are no finite stresses, and ones too small or too large for Pa: any contact load causes
+    some MPa. Raises SceneError.
+    """
+    if stresses.ndim != 3 or stresses.shape[2] != 6 or not stresses.size:
+        raise SceneError(f"given stresses have the shape {stresses.shape}; allowed: (points, times, 6) or (times, 6), with one "
+                         "point and one time at least")
+    if lost := int((~np.isfinite(stresses)).sum()):
+        raise SceneError(f"{lost} of the {stresses.size} given stresses are masked, nan or infinite; allowed: finite numbers "
+                         "in Pa")
+    LARGEST.check("the largest of the given stresses", float(stresses.flat[np.argmax(np.abs(stresses))]))
 
 
 def search(stresses, constants):
@@ -72,12 +80,9 @@ def search(stresses, constants):
     constants: a scene's :class:`tehl_taichi.scene.sections.Fatigue`. Raises SceneError for another shape or for values that are
     no numbers.
     """
-    try:
-        stresses = np.asarray(stresses, float)
-        _check_size(stresses)
-        f, normals = findley.search(stresses[None] if stresses.ndim == 2 else stresses, constants.kappa,
-                                    criterion=constants.criterion)
-    except (ValueError, TypeError) as error:
-        raise SceneError(f"given stresses: {error}") from None
+    stresses = floats("given stresses", stresses, "an array of real numbers in Pa")
+    stresses = stresses[None] if stresses.ndim == 2 else stresses
+    _check(stresses)
+    f, normals = findley.search(stresses, constants.kappa, criterion=constants.criterion)
     nowhere = ~(np.isfinite(f) & np.isfinite(normals).all(axis=1))  # no plane of it is ever sheared or pulled
     return Points(np.where(nowhere, 0.0, f), np.where(nowhere[:, None], np.nan, normals), constants.endurance)

@@ -1,9 +1,13 @@
-"""Memory that a run needs."""
+"""Memory that a run needs, or stresses under given tractions."""
+
+import math
 
 from tehl_taichi.disk import memory_limit
 
 BASE = 80e6  # bytes of kernels and libraries that are not loaded yet, measured on 64x16 cells
 NODE, ACROSS = 2000.0, 400.0  # bytes of a node, and of each of its places across the film: 512x128 and 2048x512 cells
+# bytes per node of stresses: loads and operator of one depth (line contact, grid), stresses of a depth; 600x600 nodes
+LINE, GRID, STRESSES = 350.0, 900.0, 48.0
 
 
 def needed_bytes(scene):
@@ -17,3 +21,13 @@ def check(scene, run_in=0.0):
     cells = f"{scene.grid.nx}" + (f" x {scene.grid.ny}" if scene.rows else "")
     of = f" with run-in ({memory_limit.words(run_in)})" if run_in else ""
     memory_limit.check(needed_bytes(scene) + run_in, f"a run on {cells} cells{of}")
+
+
+def check_stresses(shape, depths):
+    """Raise SceneError if stresses at this number of depths on a grid of nodes (nx,) or (nx, ny) need more memory than is
+    available.
+    """
+    stresses = depths * STRESSES  # at the end twice: single depths and their stack
+    needed = math.prod(shape) * max((GRID if len(shape) > 1 else LINE) + stresses, 2 * stresses)
+    nodes = " x ".join(map(str, shape))
+    memory_limit.check(needed, f"computing stresses at {nodes} nodes and {depths} depth{'s' * (depths != 1)}")

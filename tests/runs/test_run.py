@@ -264,7 +264,7 @@ def test_the_critical_plane_is_told_by_two_angles():
 
 @pytest.mark.parametrize("of, constants, said", [
     (bending(), {"kapa": 1}, "kappa"), (bending(), {"to_x": 1.0}, "to_x has no effect"), (bending(), {"kappa": -1}, "kappa"),
-    (bending(), {"criterion": "finley"}, "findley"), (bending()[:, :5], {}, "shaped"), (bending() * np.nan, {}, "finite"),
+    (bending(), {"criterion": "finley"}, "findley"), (bending()[:, :5], {}, "shape"), (bending() * np.nan, {}, "finite"),
     (bending(), {"bending_limit": 5e8, "endurance": 4e8}, "endurance = 400000000.0 and fatigue.bending_limit = .* contradict"),
     (bending(), {"bending_limit": 5e8, "torsion_limit": 2e8}, "between 0.5 and"),
     (bending(), {"bending_limit": -5e8, "torsion_limit": 2e8}, "bending_limit"), ([["a"]], {}, "given stresses"),
@@ -273,6 +273,24 @@ def test_the_critical_plane_is_told_by_two_angles():
 def test_bad_stresses_and_constants_are_one_error(of, constants, said):
     with pytest.raises(tehl.SceneError, match=said):
         tehl.fatigue(of, **constants)
+
+
+@pytest.mark.parametrize("shape", [(0, 3, 6), (2, 0, 6), (0, 6), (0,), (6,), (1, 2, 3, 6)])
+def test_no_history_at_all_is_refused(shape):
+    with pytest.raises(tehl.SceneError, match=r"given stresses have the shape \(.*\); allowed: \(points, times, 6\)"):
+        tehl.fatigue(np.zeros(shape))
+
+
+def test_masked_and_complex_stresses_are_refused():
+    """A mask is no stress, and the imaginary part would be lost; a mask without masked values changes nothing."""
+    masked = np.ma.array(bending(), mask=False)
+    assert tehl.fatigue(masked).f == tehl.fatigue(bending()).f == tehl.fatigue([*masked]).f
+    masked[2, 0] = np.ma.masked
+    for given in (masked, [*masked]):
+        with pytest.raises(tehl.SceneError, match="1 of the 30 given stresses are masked, nan or infinite; allowed: finite"):
+            tehl.fatigue(given)
+    with pytest.raises(tehl.SceneError, match="must be an array of real numbers in Pa"):
+        tehl.fatigue(bending() + 0j)
 
 
 @pytest.mark.parametrize("words, said", [

@@ -4,6 +4,8 @@ import numpy as np
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.stress.half_space import COMPONENTS, HalfSpaceStress
+from tehl_taichi.scene import memory_demand
+from tehl_taichi.values.arrays import floats
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.coerce import plain, shown
 
@@ -14,14 +16,23 @@ def stresses(pressure, traction_x, traction_y, dx, dy, depths, nu):
     """Compute stresses: see :func:`tehl_taichi.stresses`."""
     loads = _loads(pressure, traction_x, traction_y)
     line = loads.ndim == 2
-    dx, dy = _step("dx", dx), 1.0 if line else _step("dy", dx if dy is None else dy)
+    dx, dy = _step("dx", dx), _step_across(dx, dy, line)
     number("nu", plain(nu), "", 0.0, 0.5)
     z = _depths(depths)
+    memory_demand.check_stresses(loads.shape[1:], z.size)
     fields = loads[:, :, None] if line else loads
     x, y = np.arange(fields.shape[1]) * dx, np.arange(fields.shape[2]) * dy
     found = np.stack([_at(fields, x, y, float(nu), line, depth) for depth in z.ravel()], axis=2)
     found = found[:, 0] if line else found
     return found if z.ndim else found[..., 0, :]
+
+
+def _step_across(dx, dy, line):
+    """Distance of the nodes along y in m, 1 for a line contact, which has none. Raises SceneError."""
+    if line and dy is not None:
+        raise SceneError(f"dy = {shown(dy)} has no effect on a pressure of shape (nx,); allowed: no dy, or a pressure of shape "
+                         "(nx, ny)")
+    return 1.0 if line else _step("dy", dx if dy is None else dy)
 
 
 def _at(fields, x, y, nu, line, depth):
@@ -46,12 +57,10 @@ def _loads(pressure, traction_x, traction_y):
 
 
 def _array(name, values):
-    try:
-        values = np.asarray(values, float)
-    except (ValueError, TypeError):
-        raise SceneError(f"{name} = {shown(values)} must be an array of numbers in Pa") from None
-    if not (np.abs(values) <= LARGEST).all():
-        raise SceneError(f"{name} must be finite and at most {LARGEST:g} Pa in size")
+    values = floats(name, values, "an array of real numbers in Pa")
+    if wrong := int((~(np.abs(values) <= LARGEST)).sum()):
+        raise SceneError(f"{wrong} of the {values.size} values of {name} are masked, nan or too large; allowed: finite, at "
+                         f"most {LARGEST:g} Pa in size")
     return values
 
 
@@ -63,10 +72,7 @@ def _step(name, value):
 
 
 def _depths(depths):
-    try:
-        found = np.asarray(depths, float)
-    except (ValueError, TypeError):
-        raise SceneError(f"depths = {shown(depths)} must be numbers in m") from None
+    found = floats("depths", depths, "real numbers in m")
     if found.ndim > 1 or found.size == 0 or not ((found >= 0) & np.isfinite(found)).all():
         raise SceneError(f"depths = {shown(depths)} must be one or more finite numbers >= 0 in m")
     return found

@@ -1,10 +1,13 @@
 """tehl.stresses against closed forms: Hertz line (McEwen), Hertz sphere with and without sliding (Hamilton & Goodman 1966, in
 the form of Hamilton 1983), lengths in a, stresses in p0."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi.disk import memory_limit
 
 NU, CELLS = 0.3, 60
 DEPTHS = (0.25, 0.5, 1.0)
@@ -98,10 +101,35 @@ def test_shapes_follow_the_loads_and_depths():
 
 
 @pytest.mark.parametrize("wrong, said", [
-    ({"pressure": np.ones(1)}, "at least 2 nodes"), ({"pressure": "x"}, "array of numbers"), ({"dx": None}, "dx is missing"),
-    ({"dx": 0.0}, "dx = 0 m is out of range"), ({"pressure": [1.0, np.nan]}, "finite"), ({"depths": [-1e-6]}, ">= 0"),
+    ({"pressure": np.ones(1)}, "at least 2 nodes"), ({"pressure": "x"}, "array of real numbers"),
+    ({"dx": None}, "dx is missing"), ({"dx": 0.0}, "dx = 0 m is out of range"),
+    ({"pressure": [1.0, np.nan]}, "finite"), ({"depths": [-1e-6]}, ">= 0"),
     ({"traction_x": [1.0]}, "must agree"), ({"traction_y": [1.0, 1.0]}, "a line contact has none"),
-    ({"nu": 0.6}, "nu = 0.6 is out of range"), ({"depths": "deep"}, "numbers in m"), ({"depths": []}, "one or more")])
+    ({"nu": 0.6}, "nu = 0.6 is out of range"), ({"depths": "deep"}, "numbers in m"), ({"depths": []}, "one or more"),
+    ({"pressure": [1.0, 2.0 + 1j]}, "real numbers in Pa"), ({"pressure": np.ones(3) + 0j}, "real numbers in Pa"),
+    ({"pressure": np.ma.array([1.0, 2.0], mask=[True, False])}, "1 of the 2 values of pressure are masked, nan or too"),
+    ({"traction_x": np.ma.array([1.0, 2.0], mask=[True, False])}, "1 of the 2 values of traction_x are masked"),
+    ({"depths": np.ma.array([0.0, 1e-6], mask=[False, True])}, "finite numbers >= 0"), ({"depths": [1j]}, "real numbers in m"),
+    ({"dy": 1e-5}, r"dy = 1e-05 has no effect on a pressure of shape \(nx,\); allowed: no dy, or"),
+    ({"dy": None, "pressure": np.ma.array([1.0, 2.0]), "dx": 0.0}, "dx = 0 m")])
 def test_refusals(wrong, said):
     with pytest.raises(tehl.SceneError, match=said):
         tehl.stresses(**{"pressure": [1.0, 2.0], "dx": 1e-6, **wrong})
+
+
+@pytest.mark.parametrize("shape, depths", [((400, 300), 1), ((400, 300), 12), ((60_000,), 5)])
+def test_memory_is_checked_before_it_is_requested(monkeypatch, shape, depths):
+    """The need is that of the largest moment, within a factor of two."""
+    p, depths = np.ones(shape), np.linspace(0, 1e-3, depths)
+    tehl.stresses(p[:8], dx=1e-6, depths=depths)
+    tracemalloc.start()
+    tehl.stresses(p, dx=1e-6, depths=depths)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    monkeypatch.setattr(memory_limit, "available", lambda: 0.5 * peak)
+    nodes = " x ".join(map(str, shape))
+    with pytest.raises(tehl.SceneError, match=rf"computing stresses at {nodes} nodes and {depths.size} depths? needs [\d.]+ MB "
+                                              r"of memory; [\d.]+ MB are available"):
+        tehl.stresses(p, dx=1e-6, depths=depths)
+    monkeypatch.setattr(memory_limit, "available", lambda: 2 * peak)
+    assert np.isfinite(tehl.stresses(p, dx=1e-6, depths=depths)).all()
