@@ -134,7 +134,10 @@ def test_heights_in_an_array_are_those_of_a_file(tmp_path):
 
 @pytest.mark.parametrize("heights, said", [(np.zeros((3, 9)), "at least 4 x 4"),
                                            (np.zeros(7), r"\(rows, columns\), .* or a line profile of at least 8 points"),
-                                           ("abc", "array of numbers"), (np.full((9, 9), np.nan), "heights lacks 1 of its 81")])
+                                           ("abc", "array of real numbers"), (1j * np.ones((9, 9)), "real numbers"),
+                                           (np.full((9, 8), np.nan), "heights lacks 72 of its 72 heights .100 %., in holes of u"
+                                                                     "p to 10 points across; allowed: 5 %"),
+                                           (1e3 * np.eye(9), "the array of heights, in m with level = 'plane', ranges over")])
 def test_what_is_no_grid_of_heights_is_refused(heights, said):
     with pytest.raises(tehl.SceneError, match=said):
         tehl.Feature.from_heights(heights, pixel=1e-6)

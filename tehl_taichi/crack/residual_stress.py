@@ -95,8 +95,8 @@ def _rows(lines):
     if not lines:
         raise ValueError("it has no numbers below its line of names")
     for n, words in lines:
-        if said := wrong_length(words, count, why):
-            raise ValueError(f"line {n} {said}")
+        if refusal := wrong_length(words, count, why):
+            raise ValueError(f"line {n} {refusal}")
     return np.array([[_number(n, words[column]) for column in columns] for n, words in lines], float)
 
 

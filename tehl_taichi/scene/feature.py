@@ -7,6 +7,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.surface import shapes
 from tehl_taichi.scene.surface.maps import height_map
 from tehl_taichi.scene.surface.shape import Shape, shared_key_meaning
+from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.quantity import Choice, Switch, Text, check, choice, documented, kinds, quantity
 from tehl_taichi.values.registry import collect
 
@@ -18,6 +19,7 @@ USED_BY = {key: tuple(name for name, shape in SHAPES.items() if key in shape.use
 for owner, shape in SHAPES.items():
     USED_BY |= {key: (owner, *USED_BY.get(key, ())) for key in (kinds(shape.keys) if shape.keys else ())}
 LARGEST = 0.03  # m: contacts are a millimetre wide, 0.05 was meant in mm
+OF_HEIGHTS = ("shape", "sha256")  # keys that follow from the heights of an array
 
 
 def _about(key, general):
@@ -69,7 +71,7 @@ class Feature(_KEYS):
         Parameters
         ----------
         heights : array (rows, columns) or (points,)
-            At least 4 x 4, a row per line of points along x, or a line profile; nan where nothing was measured.
+            At least 4 x 4, a row per line of points along x, or a line profile; nan or masked where nothing was measured.
         pixel, pixel_y : float
             Distances in m of the points in a row, and of the rows (default: pixel).
         unit : {"m", "mm", "um", "nm"}
@@ -96,6 +98,8 @@ class Feature(_KEYS):
         >>> f"{bump.top * 1e6:.2f} um, {bump.size[0] * 1e6:.0f} x {bump.size[1] * 1e6:.0f} um"
         '1.00 um, 252 x 188 um'
         """
+        for key in (key for key in OF_HEIGHTS if key in keys):
+            raise SceneError(f"from_heights: {key} = {shown(keys[key])} has no effect; the heights decide it, remove {key}")
         sha256, held = height_map.of_array(heights)
         shape = "profile" if height_map.is_profile(held) else "map"
         made = cls(shape=shape, sha256=sha256, unit=unit, pixel=pixel, pixel_y=pixel_y, **keys)

@@ -8,10 +8,10 @@ from tehl_taichi.values.coerce import shown
 NO_NUMBERS = "cmM"  # kinds of numpy: complex numbers, whose imaginary part would be lost, and times
 
 
-def floats(where, values, wanted):
+def floats(where, values, allowed):
     """`values` as an array of floats, nan where they are masked. Raises SceneError for anything else.
 
-    where: name of the values, wanted: description of allowed ones, both for the message.
+    where: name of the values, allowed: description of allowed ones, both for the message.
 
     >>> floats("p", np.ma.array([1, 2], mask=[False, True]), "numbers")
     array([ 1., nan])
@@ -22,4 +22,4 @@ def floats(where, values, wanted):
             raise TypeError
         return np.asarray(np.ma.filled(found.astype(float, copy=False), np.nan))
     except (ValueError, TypeError, OverflowError):
-        raise SceneError(f"{where} = {shown(values)} must be {wanted}") from None
+        raise SceneError(f"{where} = {shown(values)} must be {allowed}") from None

@@ -1,10 +1,12 @@
 """Conversion of values to plain Python types, and to text for sentences."""
 
 import os
+import re
 import reprlib
 
 import numpy as np
 
+LINES = re.compile(r"\n\s*")  # between rows of an array
 DEEPEST = 8  # lists inside lists: nothing in a scene needs more than two
 
 
@@ -20,7 +22,7 @@ def plain(value, depth=0):
 def shown(value):
     """repr of any value, in one line of bounded length."""
     try:
-        return _short.repr(list(value) if isinstance(value, tuple) else value)
+        return LINES.sub(" ", _short.repr(list(value) if isinstance(value, tuple) else value))
     except ValueError:  # Python does not print numbers of more than 4300 digits
         return "a number of thousands of digits"
 

@@ -43,8 +43,8 @@ def rows(path):
 
 def _check_lengths(path, count, lines):
     for at, line in enumerate(lines, 2):
-        if said := wrong_length(line, count):
-            raise SceneError(f"table {path}, row {at} {said}")
+        if refusal := wrong_length(line, count):
+            raise SceneError(f"table {path}, row {at} {refusal}")
 
 
 def _column(head):

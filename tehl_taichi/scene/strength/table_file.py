@@ -109,8 +109,8 @@ def _check_names(where, names):
 
 def _check_lengths(where, count, lines):
     for at, row in enumerate(lines, 1):
-        if said := wrong_length(row, count):
-            raise SceneError(f"{where}, row {at} {said}")
+        if refusal := wrong_length(row, count):
+            raise SceneError(f"{where}, row {at} {refusal}")
 
 
 def _number(where, row, n, factor, declared):

@@ -17,7 +17,7 @@ from tehl_taichi.disk import memory_limit, npy
 from tehl_taichi.errors import SceneError, brief
 from tehl_taichi.scene.surface.maps import coordinates, instrument_files, line_profiles, text_heights
 from tehl_taichi.scene.surface.maps.stated_values import Stated
-from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.arrays import floats
 from tehl_taichi.values.file_ending import ending
 
 ROWS = "rows"
@@ -69,12 +69,9 @@ def fetch(file, sha256=""):
 
 
 def of_array(values):
-    """(sha256, heights) of heights in memory. Raises SceneError if they are no grid of heights."""
-    try:
-        values = np.array(values, float)
-    except (ValueError, TypeError):
-        raise SceneError(f"heights = {shown(values)} must be an array of numbers") from None
-    values = values[None] if values.ndim == 1 else values
+    """(sha256, heights) of heights in memory, nan where they are masked. Raises SceneError if they are no grid of heights."""
+    values = floats("heights", values, "an array of real numbers")
+    values = line_profiles.in_one_row(values)
     if not is_profile(values) and (values.ndim != 2 or min(values.shape) < 4):
         raise SceneError(f"heights have the shape {values.shape}; allowed: (rows, columns), at least 4 x 4, or a line profile "
                          f"of at least {line_profiles.FEWEST} points")
@@ -84,6 +81,11 @@ def of_array(values):
 def facts(f):
     """The :class:`Facts` of the file of a feature."""
     return _facts.get((str(f.file), f.sha256), Facts())
+
+
+def named(f):
+    """Name of the heights of a feature in a sentence: their file, or the array that they were given in."""
+    return f"feature.file = {f.file!r}" if f.file else "the array of heights"
 
 
 def read(file):
@@ -125,7 +127,9 @@ def _load(path):
             values = npy.load(path)
             if values.dtype.kind not in "fiu":
                 raise ValueError(f"it holds {values.dtype}, not numbers")
-            return text_heights.Table(values.astype(float))
+            if values.ndim not in (1, 2):
+                raise ValueError(f"it holds an array of {values.ndim} dimensions; allowed: 2 (rows, columns), or 1")
+            return text_heights.Table(np.atleast_2d(values.astype(float)))
         if ending(path) in TEXT:
             return text_heights.read(path)
     except (ValueError, OSError, EOFError) as error:

@@ -12,11 +12,13 @@ def unmeasured(values):
 
 
 def hole_depth(holes):
-    """Number of points from the rim of the largest hole to its middle; the edge of the map is no rim."""
+    """Number of points from the rim of the largest hole to its middle; the edge of the map is a rim only if nothing is
+    measured.
+    """
     inside, layers = holes, 0
     while inside.any():
         if inside.all():
-            return holes.size
+            return (max(holes.shape) + 1) // 2
         inside, layers = inside & ~_beside(~inside), layers + 1
     return layers
 

@@ -25,6 +25,11 @@ def heights_of(values):
     return _placed(*columns.T) if columns.shape[1] == 2 else None
 
 
+def in_one_row(values):
+    """Heights of one row or one column, or without columns, as one row (1, points); others unchanged."""
+    return values.reshape(1, -1) if values.ndim == 1 or values.ndim == 2 and values.shape[1] == 1 else values
+
+
 def _placed(x, z):
     """Profile of heights z at positions x; None if x neither rises nor falls."""
     if not np.isfinite(x).all() or x[0] == x[-1]:

@@ -39,7 +39,7 @@ def doubts(f, scene):
 def lines(f, scene):
     """Two lines: the heights as read, and the heights that pass through the contact."""
     steps = points_in_a_cell(f, scene)
-    m, name = f.measures, f"{f.shape} {os.path.basename(f.file)}"
+    m, name = f.measures, f"{f.shape} {os.path.basename(f.file)}".strip()
     unit_said, steps_said = stated_keys.words(f)
     heights = f"heights in {f.unit}{unit_said}" + (f" times {f.scale:g}" if f.scale != 1 else "")
     turned = f"{lay}, " if (lay := f.kind.lies(f)) else ""
@@ -174,7 +174,7 @@ def _hard(f, scene):
 
 
 def _name(f):
-    return f"feature.file = {os.path.basename(f.file)!r}"
+    return f"feature.file = {os.path.basename(f.file)!r}" if f.file else height_map.named(f)
 
 
 def _grid(f, scene):

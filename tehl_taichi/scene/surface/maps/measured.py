@@ -72,7 +72,8 @@ class Measured:
         """Scaled heights (points along y, along x) in m of the used part, oriented as in the contact; nan in holes."""
         (low_x, high_x), (low_y, high_y) = self.ends
         turned = self.orientation.turned(self.heights)[low_y:high_y, low_x:high_x]
-        return np.ascontiguousarray(turned) * (UNITS[self.unit] * self.scale)
+        found = np.ascontiguousarray(turned) * (UNITS[self.unit] * self.scale)
+        return np.where(hole_filling.unmeasured(found), np.nan, found)  # differences of infinite heights make warnings
 
     @cached_property
     def ends(self):

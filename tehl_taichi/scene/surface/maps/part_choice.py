@@ -3,6 +3,7 @@
 import numpy as np
 
 from tehl_taichi.scene.surface.maps import hole_filling
+from tehl_taichi.scene.surface.maps.height_map import named
 from tehl_taichi.scene.surface.maps.refusals import HeightsRefused
 
 
@@ -11,9 +12,9 @@ def check(f):
     holes = f.holes
     if _enough(holes):
         return
-    where = f"feature.file = {f.file!r}" if f.file else "heights"
-    raise HeightsRefused(f"{where} lacks {holes.mean():.2g} of its {holes.size} heights, in holes of up to "
-                         f"{2 * hole_filling.hole_depth(holes)} points across; allowed: {hole_filling.MOST:g}, holes of "
+    across = 2 * hole_filling.hole_depth(holes)
+    raise HeightsRefused(f"{named(f)} lacks {holes.sum()} of its {holes.size} heights ({holes.mean() * 100:.3g} %), in holes "
+                         f"of up to {across} points across; allowed: {hole_filling.MOST * 100:g} %, holes of "
                          f"{2 * hole_filling.DEEPEST} (they are filled from their neighbours); {_remedy(f)}")
 
 

@@ -91,7 +91,7 @@ class Map(Patch):
     def check_rows(self, f):
         """Refuse heights of a line profile."""
         if height_map.is_profile(f.heights):
-            raise SceneError(f"feature.file = {f.file!r} is a line profile of {f.heights.size} heights; set feature.shape = "
+            raise SceneError(f"{height_map.named(f)} is a line profile of {f.heights.size} heights; set feature.shape = "
                              "'profile', and feature.lay where its marks lie along x")
 
     def preview(self, f, scene):
@@ -130,7 +130,7 @@ def _check_offset(f, key, room):
 
 def _check_heights(f):
     part_choice.check(f)
-    found, where = f.unfaded, f"feature.file = {f.file!r}, in {f.unit} with level = {f.level!r},"
+    found, where = f.unfaded, f"{height_map.named(f)}, in {f.unit} with level = {f.level!r},"
     if found.range > MAX_RANGE:
         raise HeightsRefused(f"{where} ranges over {found.range:.3g} m; allowed: at most {MAX_RANGE:g} m. Is feature.unit = "
                              f"{f.unit!r} right?")

@@ -66,7 +66,7 @@ class Profile(Map):
             raise SceneError("feature.level = 'rows' needs shape = 'map': a line profile has no rows")
         if not height_map.is_profile(f.heights):
             rows, columns = f.heights.shape
-            raise SceneError(f"feature.file = {f.file!r} has {rows} x {columns} heights, no line profile; set feature.shape = "
+            raise SceneError(f"{height_map.named(f)} has {rows} x {columns} heights, no line profile; set feature.shape = "
                              "'map'")
 
 

@@ -99,12 +99,13 @@ def test_small_holes_are_filled_from_their_neighbours_and_told_of(tmp_path):
 
 
 @pytest.mark.parametrize("hole, words", [
-    (np.s_[:, :4], "lacks 0.08 of its 2000"), (np.s_[:9, :9], "holes of up to 18 points"), (np.s_[:], "lacks 1 of its 2000")])
+    (np.s_[:, :4], r"lacks 160 of its 2000 heights \(8 %\)"), (np.s_[:9, :9], "holes of up to 18 points"),
+    (np.s_[:], r"lacks 2000 of its 2000 heights \(100 %\), in holes of up to 50 p")])
 def test_heights_are_not_invented(tmp_path, hole, words):
     heights = np.ones((40, 50))
     heights[hole] = np.nan
     np.save(tmp_path / "scan.npy", heights)
-    with pytest.raises(SceneError, match=f"{words}.*allowed: 0.05, holes of 16.*filled from their neighbours"):
+    with pytest.raises(SceneError, match=f"{words}.*allowed: 5 %, holes of 16.*filled from their neighbours"):
         feature(tmp_path / "scan.npy")
 
 
@@ -138,6 +139,48 @@ def test_the_largest_slope_is_that_of_the_ramp(tmp_path):
 def test_a_map_that_cannot_be_meant_is_refused_with_value_and_range(tmp_path, changes, words):
     with pytest.raises(SceneError, match=words):
         feature(**{"file": wave(tmp_path), **changes})
+
+
+@pytest.mark.parametrize("values", [np.float64(3.0), np.ones(5), np.zeros(0), np.zeros((0, 5)), np.ones((9, 9, 9)),
+                                    np.ones((2, 2))])
+def test_arrays_of_another_shape_are_refused_in_a_sentence(tmp_path, values):
+    np.save(tmp_path / "scan.npy", values)
+    with pytest.raises(SceneError, match="must hold a grid of at least 4 x 4 heights|an array of . dimensions; allowed: 2 "):
+        feature(tmp_path / "scan.npy")
+    with pytest.raises(SceneError, match="heights have the shape"):
+        Feature.from_heights(values, 1e-6)
+
+
+def test_a_mask_is_a_hole(tmp_path):
+    """As nan, in an array and in a list of rows; without masked heights it changes nothing."""
+    z, mask = 1e-6 * np.random.default_rng(3).random((30, 40)), np.zeros((30, 40), bool)
+    mask[4:6, 7:9] = True
+    bare = Feature.from_heights(np.where(mask, np.nan, z), 2e-6)
+    for given in (np.ma.array(z, mask=mask), [*np.ma.array(z, mask=mask)]):
+        assert Feature.from_heights(given, 2e-6) == bare and bare.holes.sum() == 4
+    assert Feature.from_heights(np.ma.array(z), 2e-6) == Feature.from_heights(z, 2e-6)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("least", [np.inf, -np.inf])
+def test_infinite_heights_are_holes(least):
+    z = 1e-6 * np.random.default_rng(3).random((30, 40))
+    holed, infinite = z.copy(), z.copy()
+    holed[4:6, 7:9], infinite[4:6, 7:8], infinite[4:6, 8:9] = np.nan, np.inf, least
+    one, other = (Feature.from_heights(values, 2e-6, taper=1e-5) for values in (holed, infinite))
+    np.testing.assert_array_equal(one.whole_heights, other.whole_heights)
+    said = [doubts(dataclasses.replace(scene("gear"), features=(f,))) for f in (one, other)]
+    assert said[0] == said[1] and any("not measured" in one for one in said[0]) and other.holes.sum() == 4
+
+
+@pytest.mark.parametrize("changes, words", [
+    ({"shape": "map"}, "from_heights: shape = 'map' has no effect"),
+    ({"sha256": "ab"}, "from_heights: sha256 = 'ab' has no effect"),
+    ({"scale": 500.0}, "^the array of heights, in m with level = 'plane', ranges over"),
+    ({"pixel": 1e-9}, "^the array of heights, in m with level = 'plane', has slopes of")])
+def test_refusals_of_an_array_speak_of_it(changes, words):
+    with pytest.raises(SceneError, match=words):
+        Feature.from_heights(1e-6 * np.random.default_rng(3).random((30, 40)), **{"pixel": 2e-6, **changes})
 
 
 def test_what_is_no_grid_of_numbers_is_refused(tmp_path):

@@ -57,8 +57,8 @@ def test_files_of_line_profiles(tmp_path, name):
 def test_arrays(tmp_path, shape):
     np.save(tmp_path / "a.npy", HEIGHTS.reshape(shape))
     np.testing.assert_array_equal(profile(tmp_path / "a.npy").heights, HEIGHTS[None])
-    f = Feature.from_heights(HEIGHTS, pixel=2e-6, unit="um", level="none")
-    assert f.shape == "profile" and pickle.loads(pickle.dumps(f)) == f
+    f = Feature.from_heights(HEIGHTS.reshape(shape), pixel=2e-6, unit="um", level="none")
+    assert f == profile(tmp_path / "a.npy", taper=0.0) and f.shape == "profile" and pickle.loads(pickle.dumps(f)) == f
 
 
 def test_uneven_places_are_made_even(tmp_path):

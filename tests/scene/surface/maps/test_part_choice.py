@@ -54,8 +54,8 @@ def test_holes_and_steep_places_elsewhere_do_not_count(scan, tmp_path):
     heights[:, :18] = np.nan
     heights[40:, 80:] += 30.0 * (X[40:, 80:] % 2)
     np.save(tmp_path / "a.npy", heights)
-    with pytest.raises(SceneError, match="lacks 0.18 of its 6000 heights.*this part has fewer: feature.extent_x = 8.1e-05, "
-                                         "feature.offset_x = 9e-06"):
+    with pytest.raises(SceneError, match="lacks 1080 of its 6000 heights .18 %.*this part has fewer: feature.extent_x = "
+                                         "8.1e-05, feature.offset_x = 9e-06"):
         feature(tmp_path / "a.npy")
     with pytest.raises(SceneError, match="slopes of.*set feature.cutoff, or use another part"):
         feature(tmp_path / "a.npy", extent_x=81e-6, offset_x=9e-6)
