@@ -106,6 +106,10 @@ def table_of(file):
     if found is None and not profile and coordinates.is_list(table.values):
         raise SceneError(f"feature.file = {str(file)!r} is a list of points that lie on no regular grid; export the heights as "
                          f"a grid, one row per line ({', '.join(TEXT)}, .npy)")
+    if not (profile or found) and (rising := coordinates.uneven(table.values)):
+        raise SceneError(f"feature.file = {str(file)!r} has a first {rising} beside an empty corner: coordinates at uneven "
+                         "distances. Export the heights at even distances or without coordinates (heights need a number in the "
+                         "corner)")
     table = found or table.without_coordinates()
     values = table.values
     if not is_profile(values) and (values.ndim != 2 or min(values.shape) < 4):

@@ -36,7 +36,7 @@ def _placed(x, z):
         return None
     found, even = f"a column of coordinates ({x[0]:g} to {x[-1]:g})", np.linspace(x[0], x[-1], x.size)
     off = np.abs(x - even).max() / abs(even[1] - even[0])
-    if off <= EVEN or off <= 1 and not _rises(x * np.sign(x[-1] - x[0])):  # as they were rounded
+    if off <= EVEN or coordinates.is_even(x) or off <= 1 and not _rises(x * np.sign(x[-1] - x[0])):  # as they were rounded
         return z[None], coordinates.step(x), (found,)
     if not _rises(x * np.sign(x[-1] - x[0])):
         return None

@@ -5,6 +5,8 @@ import math
 
 import numpy as np
 
+from tehl_taichi.scene.surface.maps import coordinates
+
 ROUNDED = 1e-6  # of the range of coordinates: digits beyond are rounding
 EVEN = 0.1  # of a step, by which rounded coordinates depart from even ones
 WHOLE = 0.5  # of the points of a grid, at least, that are in the list
@@ -42,7 +44,8 @@ def _axis(column):
     if not FEWEST <= many.size <= len(column) / 2:
         return None
     steps = np.diff(many)
-    return (many, index.ravel()) if np.abs(steps - steps.mean()).max() <= EVEN * steps.mean() else None
+    even = np.abs(steps - steps.mean()).max() <= EVEN * steps.mean() or coordinates.is_even(many)
+    return (many, index.ravel()) if even else None
 
 
 def _step(many):

@@ -41,6 +41,61 @@ def test_a_row_and_a_column_of_coordinates_are_taken_off(name, corner):
         assert (found.y or 0) == pytest.approx(0 if y is None else abs(y[1] - y[0]), rel=0.01)
 
 
+LONG = np.round(np.random.default_rng(6).standard_normal((24, 40)).cumsum(0).cumsum(1) / 40, 4)
+
+
+def printed(step, count, digits, start=0.0, form="f"):
+    """Even coordinates as a file has them, with that many digits after the point."""
+    return np.array([f"{start + step * n:.{digits}{form}}" for n in range(count)], float)
+
+
+@pytest.mark.parametrize("corner", [np.nan, 0.0, 117.0])
+@pytest.mark.parametrize("x, y", [
+    (printed(1.6e-3, 40, 3), printed(2.4e-3, 24, 3)), (printed(-1.6e-3, 40, 3, 0.0312), printed(0.65e-3, 24, 3, -0.0075)),
+    (printed(0.36, 40, 1), printed(0.36, 24, 1)), (printed(1.6384e-6, 40, 2, form="e"), printed(3.2768e-6, 24, 2, form="e")),
+    (printed(1.6e-3, 40, 3), None), (None, printed(1.6e-3, 24, 3))], ids=["mm", "falling", "um", "m", "row", "column"])
+def test_coordinates_with_few_digits_are_coordinates(corner, x, y):
+    assert any(many is not None and np.ptp(np.diff(many)) > 0.05 * abs(many[1] - many[0]) for many in (x, y)), "uneven"
+    found = coordinates.separate(framed(x, y, corner, LONG))
+    assert np.array_equal(found.heights, LONG)
+    for step, many in ((found.x, x), (found.y, y)):
+        assert many is None and step is None or step == pytest.approx(np.ptp(many) / (many.size - 1), rel=1e-9)
+
+
+@pytest.mark.parametrize("texts, digits", [
+    ("0.000 0.002 0.010 0.011", 1e-3), ("0 1.5 100 101.5", 0.1), ("100 200 -400", 1.0), ("0 0", 1.0),
+    ("1.638e-06 1.147e-05 0", [1e-9, 1e-8, 1e-9])])
+def test_the_last_digit_is_the_printed_one(texts, digits):
+    np.testing.assert_allclose(coordinates.last_digits(np.array(texts.split(), float)), digits, rtol=1e-12)
+
+
+def test_rounded_surfaces_stay_as_they_are():
+    """Tilted and curved ones, rough by less than a digit or more: their rows are even within their digits, too."""
+    rng, x, y = np.random.default_rng(11), np.arange(30.0), np.arange(20.0)[:, None]
+    for rough in rng.choice([0, 0.1, 1, 5], 300):
+        (tilt_x, tilt_y), bent = rng.uniform(-4, 4, 2), rng.choice([0, 0.05])
+        heights = np.round(tilt_x * x + tilt_y * y + bent * (x - 14) ** 2 + rough * rng.standard_normal((20, 30)))
+        heights[0, 0] = rng.choice([np.nan, heights[0, 0]])
+        found = coordinates.separate(heights)
+        assert found.found_lines == () and found.heights.shape == (20, 30) and coordinates.uneven(heights) == ""
+
+
+@pytest.mark.parametrize("power", [0.7, 1.5, 2.0])
+@pytest.mark.parametrize("name", ["row", "column"])
+def test_uneven_coordinates_beside_an_empty_corner_are_refused(tmp_path, name, power):
+    """They would be read as heights."""
+    x, y = (np.round(2.0 * np.arange(n) ** (power if own == name else 1.0), 3) for own, n in (("row", 40), ("column", 24)))
+    said = f"has a first {name} from 0 to [0-9.]+ beside an empty corner: coordinates at uneven distances. Export the heights"
+    for corner in ("", "nan"):
+        rows = [",".join(map(str, row)) for row in framed(x, y, 0.0, LONG)]
+        (tmp_path / "a.csv").write_text("\n".join([corner + rows[0].removeprefix("0.0"), *rows[1:]]))
+        with pytest.raises(SceneError, match=said):
+            feature(tmp_path / "a.csv", pixel=2e-6)
+    even = framed(2.0 * np.arange(40), None, heights=LONG)
+    even[0, 0] = np.nan  # the first coordinate is missing: the others have their distance
+    assert coordinates.separate(even).x == 2.0 and coordinates.separate(even).found_lines == ("a row of coordinates (2 to 78)",)
+
+
 RAMP = 0.03 * np.arange(COLUMNS) + 0.01 * np.arange(ROWS)[:, None]
 SURFACES = {"rough": HEIGHTS, "ramp": RAMP, "along x": RAMP[:1] + 0 * HEIGHTS, "along y": RAMP[:, :1] + 0 * HEIGHTS,
             "saddle": np.outer(np.arange(ROWS) - 5.0, np.arange(COLUMNS) - 8.0), "flat": 0 * HEIGHTS,
@@ -116,6 +171,14 @@ def test_points_that_a_list_lacks_were_not_measured(tmp_path):
     (tmp_path / "scan.xyz").write_text("\n".join(" ".join(map(str, row)) for row in table))
     found = height_map.read(tmp_path / "scan.xyz")
     assert np.isnan(found).sum() == 3 and np.array_equal(found[~np.isnan(found)], HEIGHTS[~np.isnan(found)])
+
+
+def test_a_list_with_few_digits_is_a_grid(tmp_path):
+    x, y = printed(1.6e-3, 40, 3), printed(2.4e-3, 24, 3)
+    columns = [each.ravel() for each in np.meshgrid(x, y)]
+    np.save(tmp_path / "scan.npy", np.column_stack([*columns, LONG.ravel()]))
+    found = height_map.table_of(tmp_path / "scan.npy")
+    assert np.array_equal(found.values, LONG) and found.spacing == pytest.approx((x[-1] / 39, y[-1] / 23))
 
 
 @pytest.mark.parametrize("points", [np.random.default_rng(1).random((400, 4)), np.repeat(listed("xyz"), 2, axis=0)])

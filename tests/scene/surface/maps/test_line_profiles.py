@@ -61,6 +61,14 @@ def test_arrays(tmp_path, shape):
     assert f == profile(tmp_path / "a.npy", taper=0.0) and f.shape == "profile" and pickle.loads(pickle.dumps(f)) == f
 
 
+def test_places_with_few_digits_are_even(tmp_path):
+    """Heights are not moved to where their rounded places lie."""
+    np.savetxt(tmp_path / "a.txt", np.column_stack([X * 0.8e-3, HEIGHTS]), fmt=["%.3f", "%.5f"])
+    table = height_map.table_of(tmp_path / "a.txt")
+    np.testing.assert_array_equal(table.values, HEIGHTS[None])
+    assert "interpolated" not in table.skipped and table.spacing[0] == pytest.approx(1.6e-3, rel=0.003)
+
+
 def test_uneven_places_are_made_even(tmp_path):
     x = np.linspace(0, 100, 101)
     x[1:-1] += 0.3 * np.sin(x[1:-1])
