@@ -7,11 +7,10 @@ from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, 
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.number_text import FEW, index, value_text
-from tehl_taichi.report.verdict import headline
+from tehl_taichi.report.verdict import LATER, headline
 from tehl_taichi.runs.flank.flank_columns import error_of as error_in
 from tehl_taichi.values.digits import micrometres
 
-LATER = "Not decided: the index stays below 1 while the grid resolves the pressure, and exceeds 1 later {}."
 UNKNOWN_LATER = "Probably not: the index stays below 1, but over the whole passage its error is unknown."
 
 
@@ -96,7 +95,9 @@ def answer(places, count):
 def _headline(places, top, group):
     if top.state == BELOW and any(place.early for place in places):
         later = [place for place in places if place.early and judged(*place.whole[1:]) != BELOW]
-        return (LATER.format(_among(later, places)), "open") if later else (UNKNOWN_LATER, "no")
+        if not later:
+            return UNKNOWN_LATER, "no"
+        return f"{LATER[max(judged(*place.whole[1:]) for place in later)]} {_among(later, places)}.", "open"
     where = top.where if len(group) == 1 else f"{_among(group, places)}, where the errors do not separate the positions"
     even = "even " if top.state == ABOVE else ""
     when = f", {even}without the pressures that the grid does not resolve" if top.early else ""

@@ -16,6 +16,8 @@ from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.values.digits import micrometres, with_error
 
+LATER = {state: f"Not decided: the index stays below 1 while the grid resolves the pressure, and {word} 1 later"
+         for state, word in ((ABOVE, "exceeds"), (WITHIN, "may exceed"))}
 SAID = {ABOVE: "above 1", WITHIN: "1 lies within the error", BELOW: "below 1"}
 FATIGUE, FILM = "Does a fatigue crack start here?", "How thick is the film, and how large is the pressure?"
 
@@ -94,9 +96,11 @@ def _judged_indices(searches):
     """(worst index, text of its places, whether its errors are known, sentences)."""
     found = _judged_layers(searches)
     worst = max(state for *_, state in found)
-    places = _enumeration([where for where, _, _, state in found if state == worst])
-    known = all(error is not None for _, _, error, state in found if state == worst)
-    return worst, places, known, [_index_sentence(*layer) for layer in found]
+    all_of_them = [(where, error) for where, _, error, state in found if state == worst]
+    sure = [one for one in all_of_them if one[1] is not None]
+    decide = sure if sure and worst == ABOVE else all_of_them  # one place with a known error is enough for a yes
+    places = _enumeration([where for where, _ in decide])
+    return worst, places, len(decide) == len(sure), [_index_sentence(*layer) for layer in found]
 
 
 def _enumeration(words):
@@ -135,7 +139,7 @@ def _resolved_headline(worst, whole, places, known, over):
         return headline(worst, places, known, f", {even}without the pressures that the grid does not resolve")
     if whole == BELOW:
         return f"Probably not: the index stays below 1, but {over} its error is unknown.", "no"
-    return "Not decided: the index stays below 1 while the grid resolves the pressure, and exceeds 1 later.", "open"
+    return f"{LATER[whole]}.", "open"
 
 
 def _place(x):
@@ -172,7 +176,13 @@ def _load_too(verdict, searches):
 def _worst_alone(searches):
     """(surface, numbers) of the smooth body with the larger index, or None."""
     found = [(name, part) for name, one in searches.items() if (part := searched(one).get("contact_alone"))]
-    return max(found, key=lambda one: one[1]["Fi_max"], default=None)
+    return max(found, key=_state_and_index, default=None)
+
+
+def _state_and_index(named):
+    """Order of (name, numbers) by what is known of the index, then by the index."""
+    Fi, error = named[1]["Fi_max"], error_of(named[1], "Fi_max")
+    return judged(Fi, error), Fi
 
 
 def _alone_words(searches):

@@ -406,7 +406,12 @@ class Scene:
     @property
     def has_fatigue(self):
         """Whether the fatigue of the passage is computed."""
-        return self.fatigue.on and self.transient and bool(self.judged)
+        return self.judges_steel and self.transient
+
+    @property
+    def judges_steel(self):
+        """Whether an index is computed: of the passage, or of the smooth contact alone."""
+        return self.fatigue.on and bool(self.judged)
 
     @property
     def judged(self):

@@ -32,6 +32,7 @@ LABELS = ("oil.name", "oil.source", "fatigue.source", "fatigue.limit_of", "fatig
 FOLLOW = {"oil": data_sheet.derived_keys, "fatigue": fatigue_limits.derived_keys}  # functions: numbers that other keys give
 PARTS = (0.0, 0.1, 0.5, 1.0, 2.0)  # of the Hertz pressure, at which laws are asked
 WARMER = (0.0, 20.0, 80.0)  # K above the inlet, of a film with temperatures
+OF_A_PASSAGE = ("from_x", "to_x", "length", "exponent", "limit_cycles", "weibull", "reference_volume", "reference_area")
 NUDGE = 0.01  # of a number, by which it is changed to see whether a law takes it
 
 
@@ -209,7 +210,7 @@ def _heat(scene):
 
 
 def _expansion_of_bodies(scene):
-    heated = scene.has_fatigue and scene.has_thermal_stress
+    heated = scene.judges_steel and scene.has_thermal_stress
     for name in "ab":
         if not heated:
             yield f"bodies.{name}.alpha", "no thermal stress is computed"
@@ -228,21 +229,21 @@ def _passage(scene):
     yield "output.every", why
     for n, feature in enumerate(scene.features):
         yield from ((f"feature.{n}.{key}", why) for key in kinds(type(feature)))
-    if scene.fatigue.on:
-        yield "fatigue.on", why
 
 
 def _fatigue(scene):
-    if not scene.has_fatigue:
-        why = "fatigue.on = false" if scene.transient else "fatigue needs a passage"
+    if not scene.judges_steel:
+        why = "every searched surface is at rest" if scene.fatigue.on else "fatigue.on = false"
         yield from ((f"fatigue.{key}", why) for key in kinds(Fatigue) if key not in ("on", "source"))
+    elif not scene.transient:
+        yield from ((f"fatigue.{key}", "nothing passes: the index is that of the smooth contact") for key in OF_A_PASSAGE)
     elif why := material_length.why_not(scene, Scales.of(scene).a * (scene.grid.x_max - scene.grid.x_min) / scene.grid.nx):
         yield "fatigue.length", why
 
 
 def _strength(scene):
     """Constants that the tables of all bodies replace, and keys of tables that do not exist."""
-    if not scene.has_fatigue:
+    if not scene.judges_steel:
         return
     tables, f = [Strength(scene.fatigue, surface).table for surface in scene.judged], scene.fatigue
     relation = RELATIONS[f.relation] if any(table and table.has(HARDNESS) for table in tables) else None

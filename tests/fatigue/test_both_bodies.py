@@ -103,6 +103,9 @@ def test_the_worse_body_leads_and_the_other_is_kept():
 @pytest.mark.parametrize("Fi_a, Fi_b, said", [((1.2, 0.01), (0.9, 0.01), "Yes: the fatigue limit is exceeded at surface a."),
                                               ((0.9, 0.01), (0.8, 0.3), "Not decided: the index is 1 within its error at "
                                                                         "surface b."),
+                                              ((1.2, None), (1.5, 0.05), "Yes: the fatigue limit is exceeded at surface b."),
+                                              ((0.9, None), (0.8, 0.01), "Probably not: the index stays below 1; the error of "
+                                                                         "this is unknown."),
                                               ((0.9, 0.01), (0.8, 0.01), "No: the index stays below 1.")])
 def test_the_verdict_is_of_both(Fi_a, Fi_b, said):
     def search(name, Fi, error):

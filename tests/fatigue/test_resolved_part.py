@@ -162,6 +162,13 @@ def test_the_answer_rests_on_what_is_known(part, error, whole, tone, said):
     assert tells[3] == "Over the whole passage, where the grid does not resolve the pressure:" and f"Fi = {whole}" in tells[4]
 
 
+def test_an_index_that_is_one_within_its_error_later_may_exceed_one():
+    before = {"to_x_a": 0.6, **fatigue(0.8, None), "error": {"Fi_max": 0.1}}
+    for error, word in ((0.01, "exceeds"), (0.1, "may exceed")):
+        found = {**fatigue(1.05, None), "error": {"Fi_max": error}, "resolved": before}
+        assert verdict.of_fatigue(found)[1].endswith(f"while the grid resolves the pressure, and {word} 1 later.")
+
+
 def test_a_cut_search_is_not_called_whole():
     part = GEAR.replace(**{"fatigue.from_x": -0.5, "fatigue.to_x": 0.7})
     before, over = {"to_x_a": 0.6, **fatigue(0.8, None)}, scene_text.when(part)

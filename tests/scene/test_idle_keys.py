@@ -112,6 +112,9 @@ def _passage(scene, s, x, y):
 
 def _fatigue(scene):
     f = scene.fatigue
+    if scene.judges_steel and not scene.transient:  # the contact alone
+        yield [list(_index(Strength(f, s), depth)) for s in scene.judged for depth in (0.0, 1e-5, 3e-4)], f.criterion
+        yield f.depths, f.shear, [(s.name, s.body.nu, scene.has_thermal_stress and s.body.alpha) for s in scene.judged]
     if scene.has_fatigue:
         yield [list(_index(Strength(f, s), depth)) for s in scene.judged for depth in (0.0, 1e-5, 3e-4)], f.criterion
         yield f.length if f.length >= 2 * Scales.of(scene).a * (scene.grid.x_max - scene.grid.x_min) / scene.grid.nx else None
@@ -203,7 +206,8 @@ SAID = [("smooth-line", {"rheology.tau_0": 1e6}, "rheology.tau_0 has no effect h
         ("gear", {"fatigue.on": False, "kappa": 0.2}, "fatigue.kappa has no effect here: fatigue.on = false"),
         ("gear", {"fatigue.length": 5e-6}, "fatigue.length has no effect here: the grid averages by itself"),
         ("rough", {"fatigue.length": 5e-5}, "fatigue.length has no effect here: the surfaces are rough"),
-        ("smooth-line", {"thermal.on": False, "fatigue.criterion": "matake"}, "fatigue.criterion has no effect")]
+        ("smooth-line", {"fatigue.weibull": 24.0}, "fatigue.weibull has no effect here: nothing passes: the index is that of"),
+        ("smooth-line", {"fatigue.on": False, "fatigue.criterion": "matake"}, "fatigue.criterion has no effect")]
 
 
 @pytest.mark.parametrize("base, changes, said", SAID)
@@ -231,7 +235,7 @@ def test_a_scene_with_every_value_is_not_asked_about_them(tmp_path):
     (SCENES["smooth"], {"rheology.tau_0": [1e6, 1e8]}, "rheology.tau_0"),
     (SCENES["steady"], {"height": [1e-6, 2e-6]}, "height"),
     (SCENES["isothermal"], {"srr": [0.1, 0.2], "thermal.nodes": [5, 9]}, "thermal.nodes"),
-    (SCENES["smooth"], {("srr", "kappa"): [(0.1, 0.2), (0.2, 0.3)]}, "kappa")])
+    (SCENES["smooth"], {("srr", "fatigue.exponent"): [(0.1, 8.0), (0.2, 9.0)]}, "fatigue.exponent")])
 def test_a_sweep_of_equal_rows_is_refused(scene, over, key):
     with pytest.raises(SceneError, match=f"{key} has no effect here.*the cases would be equal"):
         plan(scene, over).refused()
@@ -245,8 +249,9 @@ def test_a_sweep_says_which_cases_are_equal():
 
 
 def test_a_sweep_tells_what_has_no_effect_in_any_case():
-    found = plan(SCENES["newtonian"].replace(kappa=0.2), {"rheology.gamma": [0.05, 0.08], "srr": [0.1, 0.0]})
-    assert [sentence.split()[0] for sentence in found.doubts()] == ["fatigue.kappa"]  # friction of solid contact needs slip
+    newtonian = SCENES["newtonian"].replace(**{"fatigue.length": 5e-6})
+    found = plan(newtonian, {"rheology.gamma": [0.05, 0.08], "srr": [0.1, 0.0]})
+    assert [sentence.split()[0] for sentence in found.doubts()] == ["fatigue.length"]  # friction of solid contact needs slip
     slips = plan(SCENES["newtonian"], {"rheology.gamma": [0.05, 0.08], "srr": [0.1, 0.2]})
     assert [sentence.split()[0] for sentence in slips.doubts()] == ["rheology.gamma"]
 
@@ -272,8 +277,9 @@ def test_a_seed_of_no_samples_is_refused(tmp_path):
 def test_the_command_says_it_before_it_sweeps():
     from tehl_cli.main import app
 
-    done = CliRunner().invoke(app, ["sweep", "smooth-line", "--set", "fatigue.kappa=0.4", "--over", "srr=0.1,0.2", "--dry-run"])
-    assert done.exit_code == 0 and "warning: fatigue.kappa has no effect here" in done.output
+    command = "sweep smooth-line --set fatigue.length=5e-6 --over srr=0.1,0.2 --dry-run"
+    done = CliRunner().invoke(app, command.split())
+    assert done.exit_code == 0 and "warning: fatigue.length has no effect here" in done.output
 
 
 def test_a_scene_of_parts_says_it_of_unusual_values():
@@ -292,5 +298,19 @@ def test_what_follows_from_other_keys_was_not_given():
     scene = Scene(features=(), contact=Contact(moes_M=20.0, moes_L=10.0), fatigue=limits, oil=sheet)
     assert not {"operation.u_m", "fatigue.endurance", "oil.G0", "oil.S0", "grid.x_min"} & idle_keys.user_keys(scene)
     assert {"contact.moes_M", "fatigue.bending_limit", "oil.nu_40"} <= idle_keys.user_keys(scene)
-    assert list(idle_keys.doubts(scene)) == ["fatigue.bending_limit has no effect here: fatigue needs a passage"]
+    assert list(idle_keys.doubts(scene)) == []
     assert all(not list(idle_keys.doubts(tehl.scene(name))) for name in BUILT_INS)
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+@pytest.mark.parametrize("changes", [{"fatigue.kappa": 0.6}, {"fatigue.residual_xx": 5e8}, {"fatigue.criterion": "matake"},
+                                     {"fatigue.table": "case-hardened"}, {"fatigue.shear": False}], ids=str)
+def test_keys_of_the_smooth_contact_alone_act_and_are_swept(changes):
+    from tehl_taichi.march.accuracy.contact_alone_bars import searches
+
+    line = tehl.scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False})
+    other, (key,) = line.replace(**changes), changes
+    first, now = (searches(one, next(tehl.march(one)))["a"] for one in (line, other))
+    assert any(now[name] != first[name] for name in ("Fi_max", "surface_Fi_max"))
+    assert not [one for one in idle_keys.doubts(other) if one.startswith(key)]
+    assert plan(line, {key: [getattr(line.fatigue, key.partition(".")[2]), changes[key]]}).refused() == {}
