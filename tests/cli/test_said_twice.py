@@ -100,6 +100,18 @@ def test_a_study_file_that_says_a_key_twice(tmp_path, text):
         study_file.load(tmp_path / "a.toml")
 
 
+@pytest.mark.parametrize("text, said", [
+    ("[over]\noperation.srr = [0.1]\n\"operation.srr\" = [0.2, 0.3]", "operation.srr is given twice"),
+    ("[over]\nsrr = [0.1]\n[set]\n\"oil.eta0\" = 0.1\noil.eta0 = 0.2", "oil.eta0 is given twice, .*: 0.1 and 0.2"),
+    ("[[together]]\noil.eta0 = [0.1]\n\"oil.eta0\" = [0.2]", "oil.eta0 is given twice"),
+    ("[[together]]\nsrr = [0.1]\nload = [1e6]\n[[together]]\nsrr = [0.2]\nload = [2e6]", "srr, load is swept twice in"),
+    ("[[together]]\nsrr = [0.1]\nload = [1e6]\n[[together]]\nload = [2e6]\nsrr = [0.2]", "is swept twice")])
+def test_a_study_file_of_which_nothing_is_dropped(tmp_path, text, said):
+    (tmp_path / "a.toml").write_text(text)
+    with pytest.raises(SceneError, match=said):
+        study_file.load(tmp_path / "a.toml")
+
+
 def test_a_crack_on_the_other_side_of_its_mouth():
     for side, start in (("entry", 4e-5), ("exit", -4e-5)):
         with pytest.raises(SceneError, match=f"not on the side '{side}'"):

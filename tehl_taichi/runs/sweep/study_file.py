@@ -40,9 +40,11 @@ def load(path):
         if key not in KNOWN:
             raise SceneError(f"unknown key {shown(key)} in {path}{nearest(key, KNOWN)}; known: {', '.join(KNOWN)}")
     toml_file.check_brackets(path, data, one=("set", "over"), several=("together",))
-    over = {key: _listed(key, values) for key, values in _flat(data.get("over", {})).items()}
+    over: dict[Any, Any] = dict(_columns(data.get("over", {})))
     for group in data.get("together", []):
-        columns = {key: _listed(key, values) for key, values in _flat(group).items()}
+        columns = _columns(group)
+        if tuple(columns) in over:
+            raise SceneError(f"{', '.join(columns)} is swept twice in {path}: give all values in one table [[together]]")
         over[tuple(columns)] = _rows(columns)
     changes = _flat(data.get("set", {}))
     check_swept(changes, [key for keys in over for key in ((keys,) if isinstance(keys, str) else keys)])
@@ -54,8 +56,17 @@ def _flat(table, above=""):
     """{dotted key: value} of nested tables (TOML reads feature.height = 1 as a nested table)."""
     out: dict[str, Any] = {}
     for key, value in table.items():
-        out |= _flat(value, f"{above}{key}.") if isinstance(value, dict) else {above + key: value}
+        found = _flat(value, f"{above}{key}.") if isinstance(value, dict) else {above + key: value}
+        for twice in out.keys() & found.keys():
+            raise SceneError(f"{twice} is given twice, with quotes and without: {shown(out[twice])} and {shown(found[twice])}; "
+                             "give it once")
+        out |= found
     return out
+
+
+def _columns(table):
+    """{dotted key: its values} of a table of swept keys."""
+    return {key: _listed(key, values) for key, values in _flat(table).items()}
 
 
 def _listed(key, values):
