@@ -92,8 +92,10 @@ def content(path, most=TEXT):
 
 
 def text(path):
-    """Text of a plain file. Raises as :func:`content`; ValueError if it is no text."""
-    return content(path).decode("utf-8")
+    """Text of a plain file, without the mark that some editors put first. Raises as :func:`content`; ValueError if it is no
+    text.
+    """
+    return content(path).decode("utf-8-sig")
 
 
 def json_of(path):

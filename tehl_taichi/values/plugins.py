@@ -81,7 +81,7 @@ def _toml(path):
     if not path.name.lower().endswith(".toml") or not path.is_file() or path.stat().st_size > LARGEST:
         return {}
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError, RecursionError):
         return {}
 

@@ -6,11 +6,13 @@ import tomllib
 
 import pytest
 
+from tehl_taichi.runs.sweep import study_file
 from tehl_taichi.scene import Scene, SceneError, scene, scene_file
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.sections import Body, Contact, Time
 from tehl_taichi.store.load_scene import find, find_changed
+from tehl_taichi.values import plugins
 
 
 def refused(call, *words):
@@ -235,6 +237,15 @@ def test_a_decimal_comma_is_named(line, words, tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(f'base = "gear"\n[operation]\n{line}\n[grid]\nnx = 128\n')
     refused(lambda: scene_file.load(path), "mine.toml is not valid TOML", *words)
+
+
+@pytest.mark.parametrize("text, read", [
+    ('base = "gear"\n[grid]\nnx = 64\n', lambda path: scene_file.load(path).grid.nx == 64),
+    ('[over]\nsrr = [0.1, 0.2]\n', lambda path: study_file.is_study_file(path) and study_file.load(path).count == 2),
+    ('plugins = ["mine"]\n', lambda path: plugins._toml(path) == {"plugins": ["mine"]})])
+def test_the_mark_that_some_editors_put_first(text, read, tmp_path):
+    (tmp_path / "mine.toml").write_text(text, encoding="utf-8-sig")
+    assert read(tmp_path / "mine.toml")
 
 
 FILES = (GEAR, "[contact]\nload = 1.1e6\n", GEAR + "[operation]\nu_a = 7.0\nu_b = 9.0\n",
