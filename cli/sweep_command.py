@@ -50,7 +50,7 @@ def sweep(
     Examples: `tehl sweep gear --over srr=-0.3:0.3:7 --over feature.height=0.5e-6,1e-6` · `tehl sweep study.toml` ·
     `tehl sweep gear --samples 40 --over srr=-0.3:0.3 --over speed=1:20:log` · then `tehl plot runs/NAME.zarr`
     """
-    from tehl_cli.sweep_display import SweepLive
+    from tehl_cli.sweep_display import SweepLive, doubts
 
     from tehl_taichi.errors import Interrupted, stopped
     from tehl_taichi.runs.sweep import sweeping
@@ -64,7 +64,7 @@ def sweep(
         say_idle(context, "--dry-run prints text", "as_json")
         return _report(plan, out)
     _check_count(plan, yes)
-    for sentence in _doubts(plan):
+    for sentence in doubts(plan):
         say(sentence)
     with SweepLive(quiet) as live:
         try:
@@ -108,6 +108,8 @@ def _check_count(plan, yes):
 
 def _report(plan, out):
     """Print the plan of a sweep."""
+    from tehl_cli.sweep_display import doubts
+
     from tehl_taichi.scene.scales import Scales
 
     refused = plan.refused()
@@ -119,24 +121,8 @@ def _report(plan, out):
         put(f"{key} = {', '.join(values[:12])}{' ...' if len(values) > 12 else ''}")
     for number, reason in refused.items():
         put(f"case {number} would be refused: {reason}")
-    for sentence in _doubts(plan):
+    for sentence in doubts(plan):
         put(sentence)
-
-
-def _doubts(plan):
-    """Sentences about keys without effect, in all cases or in some of them."""
-    yield from (f"warning: {sentence}" for sentence in plan.doubts())
-    yield from (f"warning: case {number} equals case {first}: the keys that differ have no effect there"
-                for number, first in plan.equal().items())
-    if some := plan.without_temperatures():
-        yield (f"warning: {_cases(some)} no temperatures, the other cases do; use --thermal to compute them in all cases, "
-               "--isothermal in none")
-
-
-def _cases(numbers):
-    """Text of cases by their numbers, with the verb."""
-    few = ", ".join(map(str, numbers[:8])) + ", ..." * (len(numbers) > 8)
-    return f"case {few} computes" if len(numbers) == 1 else f"cases {few} compute"
 
 
 def _print(study, as_json):

@@ -116,6 +116,22 @@ def duration(seconds):
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
 
 
+def doubts(plan):
+    """Warnings about keys without effect, in all cases or in some of them."""
+    yield from (f"warning: {sentence}" for sentence in plan.doubts())
+    yield from (f"warning: case {number} equals case {first}: the keys that differ have no effect there"
+                for number, first in plan.equal().items())
+    if some := plan.without_temperatures():
+        yield (f"warning: {_cases(some)} no temperatures, the other cases do; use --thermal to compute them in all cases, "
+               "--isothermal in none")
+
+
+def _cases(numbers):
+    """Text of cases by their numbers, with the verb."""
+    few = ", ".join(map(str, numbers[:8])) + ", ..." * (len(numbers) > 8)
+    return f"case {few} computes" if len(numbers) == 1 else f"cases {few} compute"
+
+
 def print_study(study):
     """Print the table of a study, the reasons of missing results, and its path."""
     from tehl_cli.tables import list_table

@@ -47,10 +47,10 @@ def traction(
     Examples: `tehl traction smooth-line --srr 0:0.5:11 --temperature 40,80,120` · `tehl traction mtm --srr 0.1 --speed
     0.1:10:9:log --oil mineral-vg220`
     """
-    from tehl_cli.sweep_display import SweepLive
+    from tehl_cli.sweep_display import SweepLive, doubts
 
     from tehl_taichi.errors import Interrupted, NotConverged, stopped
-    from tehl_taichi.runs import traction as room
+    from tehl_taichi.runs.traction.traction_run import traction, traction_plan
     from tehl_taichi.store.load_scene import find
     from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
 
@@ -60,23 +60,24 @@ def traction(
     changes = changes_of(options, grid, set_ or [])
     base = find(scene)
     check_rows(grid, changes, lambda: base)
+    axes = dict(srr=srr, temperature=temperature, speed=speed, load=load, hertz_pressure=hertz_pressure, changes=changes)
+    for sentence in doubts(traction_plan(base, **axes)):
+        say(sentence)
     with SweepLive(quiet) as live:
         try:
-            found = room.traction(base, srr, temperature, speed, load=load, hertz_pressure=hertz_pressure,
-                                  changes=changes, path=out, workers=workers, threads_per_worker=threads_per_worker,
-                                  progress=live)
+            found = traction(base, **axes, path=out, workers=workers, threads_per_worker=threads_per_worker, progress=live)
         except KeyboardInterrupt as stop:
             raise Interrupted(f"{stopped(stop)} {live.left('repeat the command to resume')}") from None
     if figure:
         say(str(found.plot(**vars(page))))
-    print_json(found.to_dict()) if as_json else print_traction(found)
+    print_json(found.to_dict()) if as_json else _print(found)
     if found.failed:
         raise NotConverged(f"{len(found.failed)} of {len(found.study)} cases have no result; the others are in "
                            f"{found.study.path}. Try another --grid or --set with a new --out")
 
 
-def print_traction(found):
-    """Print the table of traction curves, the reasons of missing results, warnings, and its path."""
+def _print(found):
+    """Print the table of traction curves, the reasons of missing results, warnings of the cases, and its path."""
     from tehl_cli.tables import list_table, warning_lines
 
     rows = found.rows
@@ -87,7 +88,7 @@ def print_traction(found):
                 for row in rows], whole=True)
     for row in found.failed:
         put(f"no result: {', '.join(f'{head} {row[key]:g}' for key, head in KEYS.items() if key in row)}: {row['reason']}")
-    warning_lines(found.warnings)
+    warning_lines(found.warnings[len(found.study.plan.doubts()):])  # those were printed before the runs
     put(f"table: {found.study.table}; study: {found.study.path}")
 
 

@@ -104,7 +104,7 @@ class _LocalWork:
 
 
 class _KindsOnce(Progress):
-    """Progress of a flank: passes on each kind of warning once, with the first position that has it."""
+    """Progress of a flank: passes on the warnings of each kind once, those of the first position that has the kind."""
 
     def __init__(self, listener):
         self.listener, self.warned, self.kinds = listener, set(), {}

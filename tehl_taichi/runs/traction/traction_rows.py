@@ -90,14 +90,15 @@ class Traction:
 
     @property
     def warnings(self) -> list:
-        """Warnings of the cases: the first of every kind, with the number of its cases."""
+        """Keys without effect, and the warnings of the cases: the first of every kind, with the number of its cases."""
         kinds: dict[tuple, list[str]] = {}
         for record in self.study.results():
             own = Kinds()
             for one in unique(warnings_of(record["summary"] or {})):
                 kinds.setdefault(own.of(one), []).append(str(one))
-        return [f"{found[0]} ({'the first of ' * (len(set(found)) > 1)}{len(found)} of {len(self.study)} cases)"
-                for found in kinds.values()]
+        of_cases = [f"{found[0]} ({'the first of ' * (len(set(found)) > 1)}{len(found)} of {len(self.study)} cases)"
+                    for found in kinds.values()]
+        return [*self.study.plan.doubts(), *of_cases]
 
     def to_dict(self) -> dict:
         """The JSON object of `tehl traction --json`."""

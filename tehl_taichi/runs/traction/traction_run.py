@@ -10,7 +10,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.sweep import axis_syntax, sweeping
 from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.runs.traction.traction_rows import LOAD, PRESSURE, SPEED, SRR, TEMPERATURE, Traction
-from tehl_taichi.scene import Scene
+from tehl_taichi.scene import Scene, idle_keys
 from tehl_taichi.scene.aliases import check_swept, full_name
 from tehl_taichi.store.load_scene import find
 
@@ -43,9 +43,15 @@ def traction_plan(scene, srr=SRRS, temperature=None, speed=None, changes=None, l
             raise SceneError(f"{key} is swept and {KEYS[key]} = {changes[KEYS[key]]!r} sets it: give one of them")
     changes |= {KEYS[key]: swept.pop(key)[0] for key in (LOAD, PRESSURE) if key in swept and _is_one(swept[key])}
     check_swept(changes, swept)
-    smooth = dataclasses.replace(scene, features=())
+    smooth = _smooth(scene)
     heat = {"thermal.on": True} if smooth.thermal.on == "auto" else {}
     return plan(smooth.replace(**{**heat, **changes}), swept)
+
+
+def _smooth(scene):
+    """The scene without its features; keys of a passage, which it no longer has, do not count as given by the user."""
+    smooth = dataclasses.replace(scene, features=())
+    return smooth.with_user_keys(idle_keys.user_keys(scene) - (idle_keys.idle(smooth).keys() - idle_keys.idle(scene).keys()))
 
 
 def _is_one(values):

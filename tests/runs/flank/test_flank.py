@@ -20,6 +20,7 @@ from tehl_taichi.runs.sweep import case
 from tehl_taichi.scene import SceneError, hertz
 from tehl_taichi.scene.gear_pair import gear_pair
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.coded_warning import CodedWarning
 from tehl_taichi.values.digits import with_error
 from tehl_taichi.view.figures.figure_style import FigureStyle
 

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from commands import here
+from tehl_cli import traction_command
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError
@@ -67,6 +68,18 @@ def test_features_are_left_out_and_temperatures_computed_in_all_cases():
     assert [scene.operation.srr for scene in scenes] == [0.0, 0.1, 0.2]
     assert not traction_plan(tehl.scene("gear"), [0.1], changes={"thermal.on": False}).case(0).thermal.on
     assert default_path(plan).name.startswith("gear-traction-")
+
+
+def test_keys_without_effect_are_said_but_not_those_of_the_passage_that_a_file_describes(tmp_path, capsys):
+    (tmp_path / "a.toml").write_text('base = "gear"\n[time]\nsteps = 5\n[fatigue]\nkappa = 0.2\n[rheology]\ntau_0 = 9e6\n')
+    idle = {"time.courant": 0.5, "thermal.on": False, "thermal.nodes": 9}
+    found = traction(tmp_path / "a.toml", [0.1], changes=idle, path=tmp_path / "t.zarr", workers=1, work=made)
+    assert [said.split()[0] for said in found.warnings] == ["rheology.tau_0", "thermal.nodes", "time.courant", "0.1"]
+    traction_command._print(found)
+    assert "0.1 is doubtful" in (printed := capsys.readouterr().out) and "no effect" not in printed
+    said = here("traction", "smooth-line", "--no-figure", "--set", "fatigue.kappa=0.2", "--set", "rheology.tau_0=9e6",
+                "--workers", 0).stderr  # refused before the runs
+    assert "warning: fatigue.kappa has no effect" in said and "warning: rheology.tau_0 has no effect" in said
 
 
 def test_the_curves_are_over_slip_or_over_speed(tmp_path, curves):
