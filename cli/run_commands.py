@@ -71,6 +71,7 @@ def run(
     `tehl run my.toml --set feature.height=1um`
     """
     import tehl_taichi as tehl
+    from tehl_taichi.scene import zoom_room
     from tehl_taichi.store.load_scene import find_changed
 
     changes = changes_of(
@@ -84,6 +85,8 @@ def run(
     description = find_changed(scene, changes)
     check_rows(grid, changes, lambda: description)
     description = _on_grid_for(target_error, changes, description)
+    if zoom == AUTO:
+        description = _before_window(context, changes, description)
     if out is None:
         say_idle(context, "without --out every run makes a store of its own", "force")
     if dry_run:
@@ -91,7 +94,7 @@ def run(
         return _print_scene(description)
     with Live(quiet, curves) as live, time_budget(live if timing else None) as budget:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
-        if zoom == AUTO and description.transient and done.finished:
+        if zoom == AUTO and not zoom_room.why_none(description) and done.finished:
             done = tehl.zoom(done.path, AUTO, threads=threads, progress=live)
     _print(done, as_json, description.warnings(), budget)
     if description.time.steps == 0 and not quiet:
@@ -182,6 +185,19 @@ def _print_time(done):
 
     for sentence in time_estimate.lines(done, GRIDS["coarse"]):
         say(sentence)
+
+
+def _before_window(context, changes, description):
+    """Scene without the window that `--zoom auto` chooses after the run; zoom.factor contradicts it: SceneError."""
+    from tehl_taichi.scene import SceneError, idle_keys, zoom_room
+
+    if "zoom.factor" in changes:
+        raise SceneError(f"--zoom auto and zoom.factor = {changes['zoom.factor']} contradict each other: give one of them")
+    if why := zoom_room.why_none(description):
+        say_idle(context, why, "zoom")
+        return description
+    given = {key for key in idle_keys.user_keys(description) if not key.startswith("zoom.")}
+    return description.replace(**{"zoom.factor": 0}).with_user_keys(given)
 
 
 def _on_grid_for(target, changes, description):

@@ -7,7 +7,7 @@ from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.runs import single_run
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.stored_run import Run
-from tehl_taichi.scene import refinement
+from tehl_taichi.scene import refinement, zoom_room
 from tehl_taichi.values.quantity import AUTO
 
 
@@ -19,15 +19,24 @@ def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = N
     from tehl_taichi.engine import runtime
 
     before, progress = single_run.open(path), progress_of(progress)
-    if not before.finished:
-        raise StoreError(f"{before.path} is not finished: use tehl resume {before.path} first")
     scene = before.scene.replace(**{"zoom.factor": factor})
-    if factor and not scene.zooms:
-        raise SceneError(f"{before.path}: no feature passes in this run, so there is nothing to zoom in on")
+    _check(before, factor)
     if scene == before.scene:
+        progress.say(f"{before.path} has {f'its window of factor {factor}' if factor else 'no window'} already")
         return before
     runtime.check(threads=threads)
     return single_run.continued(before.path, scene, threads, began, progress)
+
+
+def _check(before, factor):
+    """Refuse a run that cannot have a window of this factor. Raises SceneError, StoreError."""
+    if not before.finished:
+        raise StoreError(f"{before.path} is not finished: use tehl resume {before.path} first")
+    if factor and not before.scene.transient:
+        raise SceneError(f"{before.path}: no feature passes in this run, so there is nothing to zoom in on")
+    if factor and len(before.store) < zoom_room.FEWEST:
+        raise SceneError(f"{before.path} has {len(before.store)} stored moments, a window needs at least {zoom_room.FEWEST}: "
+                         "extend the run with tehl resume, or repeat it with a smaller output.every")
 
 
 def _zoom_as_needed(path, threads, progress):
@@ -36,6 +45,7 @@ def _zoom_as_needed(path, threads, progress):
     from tehl_taichi.runs import zoom_need
 
     done = single_run.open(path)
+    _check(done, AUTO)
     for factor in zoom_need.factors(done):
         if why := refinement.no_window(done.scene, factor):
             progress.say(f"no window: {why}")

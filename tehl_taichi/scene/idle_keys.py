@@ -13,7 +13,7 @@ from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.laws.law import declared
 from tehl_taichi.laws.solid_friction import BOUNDARY, boundary_stress
 from tehl_taichi.laws.viscosity import ln_eta
-from tehl_taichi.scene import aliases, data_sheet, fatigue_limits, keys, material_length, run_in
+from tehl_taichi.scene import aliases, data_sheet, fatigue_limits, keys, material_length, run_in, zoom_room
 from tehl_taichi.scene.feature import USED_BY
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.named_steels import STEELS
@@ -62,6 +62,7 @@ def doubts(scene):
     found, own = idle(scene), user_keys(scene)
     beside = {"time.steady_only", *["grid.ny"] * ("grid.nx" in own)}  # says what is so; --grid gives both
     beside |= {"time.steps"} if scene.time.steps <= 0 else set()  # all of none, none
+    beside |= set() if scene.zoom.factor else {"zoom.factor"}
     for key in sorted(own & found.keys() - beside):
         yield with_data(f"{short_key(key, scene)} has no effect here: {found[key]}", key=key)
     yield from (with_data(f"rheology.{key} has no effect on the film: the law {scene.rheology.law!r} does not use it; it only "
@@ -269,11 +270,11 @@ def _strength(scene):
 
 
 def _zoom(scene):
-    if not scene.transient:
-        yield "zoom.factor", "nothing passes"
-    if not scene.zooms:
-        why = "zoom.factor = 0" if scene.transient else "nothing passes"
-        yield from ((f"zoom.{key}", why) for key in kinds(Zoom) if key != "factor")
+    why = zoom_room.why_none(scene)
+    if why:
+        yield "zoom.factor", why
+    if why or not scene.zooms:
+        yield from ((f"zoom.{key}", why or "zoom.factor = 0") for key in kinds(Zoom) if key != "factor")
 
 
 def _across(scene):

@@ -3,6 +3,7 @@
 import math
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import zoom_room
 from tehl_taichi.values.coded_text import Option, grid_option
 
 
@@ -37,7 +38,7 @@ def zoom_option(scene, work):
     """Text such as '--zoom 4 (6 times the work)' if the passage can have a fine window, else "". work(factor): work of the run
     with a window over that of the run alone.
     """
-    if not scene.transient or scene.zooms or no_window(scene, 4):
+    if zoom_room.why_none(scene) or scene.zooms or no_window(scene, 4):
         return ""
     return _with_work(Option("--zoom 4", "a window four times as fine"), math.ceil(work(4)))
 

@@ -36,6 +36,11 @@ def total_steps(scene):
     return steps if scene.time.steps == ALL else min(steps, scene.time.steps)
 
 
+def entries(scene):
+    """Number of stored moments, with the steady start: every output.every steps, and the last one."""
+    return 1 + math.ceil(total_steps(scene) / scene.output.every)
+
+
 def moments(scene):
     """(number of stored moments between fatigue.from_x and to_x, position in a of the first step and of the last)."""
     (start, _), steps, every = scene.path, total_steps(scene), scene.output.every

@@ -5,8 +5,10 @@ import math
 import numpy as np
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import timeline
 from tehl_taichi.scene.scales import Scales
 
+FEWEST = 3  # stored moments of a passage with a window: the steady start, and two between which it moves
 WIDEST = 1.5  # a, of the features along x
 BESIDE, CELLS = 0.05, 5  # a, and cells of the grid, at least, between the features and the end of the grid across
 
@@ -24,6 +26,14 @@ def check(scene):
         if width and width < high - low:
             raise SceneError(f"zoom.width_{axis} = {width:g} a is less than the features of surface {surface.name}; "
                              f"allowed: at least {high - low:.3g} a, or 0 for what they change")
+
+
+def why_none(scene):
+    """Reason why a scene has no window, whatever its factor; "" if it can have one."""
+    if not scene.transient:
+        return "nothing passes"
+    found = timeline.entries(scene)
+    return "" if found >= FEWEST else f"a window needs {FEWEST} stored moments, this run has {found}"
 
 
 def followed(scene):

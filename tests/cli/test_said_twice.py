@@ -74,8 +74,10 @@ def test_positions_by_number_and_by_name():
     "sweep gear --set feature.height=1e-6 --over height=1e-6,2e-6", "sweep gear --isothermal --over thermal.on=true,false",
     "sweep gear --set srr=0.1 --over operation.u_a=1,2", "sweep gear --set srr=0.1 --samples 3 --over srr=0:0.1",
     "run gear --srr 0.1 --set operation.srr=0.2", "run gear --set srr=0.1 --set srr=0.2", "run gear --speed 3 --set speed=4",
-    "run gear --grid 64x16 --set grid.nx=128", "run gear --kappa 0.2 --set fatigue.kappa=0.3", "run gear --thermal --set "
-    "thermal.on=false", "flank fzg-c --steady --set time.steady_only=false", "flank fzg-c --height 1e-6 --set height=2e-6"])
+    "run gear --grid 64x16 --set grid.nx=128",
+    "run gear --kappa 0.2 --set fatigue.kappa=0.3", "run gear --zoom auto --set zoom.factor=2",
+    "run gear --thermal --set thermal.on=false", "flank fzg-c --steady --set time.steady_only=false",
+    "flank fzg-c --height 1e-6 --set height=2e-6"])
 def test_a_key_that_is_set_and_set_again(words):
     from tehl_cli.main import app
 

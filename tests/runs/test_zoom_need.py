@@ -12,10 +12,15 @@ from tehl_taichi.scene import refinement, zoom_room
 SCENE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid.nx": 256})
 
 
+class Stored(types.SimpleNamespace):
+    def __len__(self):
+        return 99
+
+
 def finished(scene, resolved=None, error=None, monkeypatch=None):
     """A finished run whose grid resolves the pressure up to a place, with the error of its largest pressure."""
     monkeypatch.setattr(zoom_need.coarse_runs, "resolved", lambda *given: resolved)
-    return types.SimpleNamespace(scene=scene, store=types.SimpleNamespace(scalar=None, scene=scene), path="a.zarr",
+    return types.SimpleNamespace(scene=scene, store=Stored(scalar=None, scene=scene), path="a.zarr", finished=True,
                                  summary={"transient": {"error": {"p_max_Pa": error}}})
 
 

@@ -7,8 +7,10 @@ import sys
 from dataclasses import replace
 from types import SimpleNamespace
 
+import made_results
 import numpy as np
 import pytest
+from small_stores import SMALL
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import Interrupted
@@ -165,8 +167,22 @@ def test_what_cannot_have_a_window(plain, folder):
     steady = tehl.run(tehl.scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False}), folder / "steady.zarr")
     with pytest.raises(tehl.SceneError, match="no feature passes in this run"):
         tehl.zoom(steady.path)
+    with pytest.raises(tehl.SceneError, match="no feature passes in this run"):
+        tehl.zoom(steady.path, "auto")
     with pytest.raises(tehl.StoreError, match="nothing.zarr"):
         tehl.zoom(folder / "nothing.zarr")
+
+
+@pytest.mark.parametrize("factor", [4, "auto"])
+def test_a_run_of_too_few_moments_has_no_window(tmp_path, factor):
+    path = made_results.run(tmp_path / "made.zarr", tehl.scene("gear").replace(**{"time.steps": 1}), 2)
+    with pytest.raises(tehl.SceneError, match="has 2 stored moments, a window needs at least 3"):
+        tehl.zoom(path, factor)
+
+
+def test_a_window_that_is_there_already_is_said(tmp_path, capsys):
+    path = made_results.run(tmp_path / "made.zarr", SMALL, 3)
+    assert not tehl.zoom(path, 0, progress=tehl.Lines()).scene.zooms and "has no window already" in capsys.readouterr().err
 
 
 def test_a_window_that_ends_early_is_a_warning(folder, monkeypatch):
