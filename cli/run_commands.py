@@ -71,6 +71,7 @@ def run(
     `tehl run my.toml --set feature.height=1um`
     """
     import tehl_taichi as tehl
+    from tehl_taichi.runs import single_run
     from tehl_taichi.scene import zoom_room
     from tehl_taichi.store.load_scene import find_changed
 
@@ -91,6 +92,7 @@ def run(
         say_idle(context, "without --out every run makes a store of its own", "force")
     if dry_run:
         say_idle(context, "--dry-run prints text", "as_json")
+        single_run.check(description, out, force, threads, arch)
         return _print_scene(description)
     with Live(quiet, curves) as live, time_budget(live if timing else None) as budget:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)

@@ -61,6 +61,7 @@ def sweep(
     out = out or sweeping.default_path(plan)
     if dry_run:
         sweeping.check_settings(workers, threads_per_worker, scheduler, keep, connect=False)
+        sweeping.check_place(plan, out, keep)
         say_idle(context, "--dry-run prints text", "as_json")
         return _report(plan, out)
     _check_count(plan, yes)

@@ -28,12 +28,13 @@ def staging_path(path, what):
 
 
 class Draft:
-    """Reserve the name `path` for the result that :meth:`publish` puts there; replace: also if it exists.
+    """Reserve the name `path` for the result that :meth:`publish` puts there; replace: also if it exists; reserve = False:
+    only check it.
 
     Raises StoreError if nothing can be made there, or an existing result may not be replaced; Busy.
     """
 
-    def __init__(self, path, replace=False):
+    def __init__(self, path, replace=False, reserve=True):
         self.path, self.made, self.old, self.published = Path(path), [], None, False
         self.lock: Any = None
         if not self.path.name:
@@ -42,7 +43,8 @@ class Draft:
         put_back(self.path)
         try:
             self.old = self.allowed(replace)
-            self._make()
+            if reserve:
+                self._make()
         except BaseException as error:
             self.give_up()
             if isinstance(error, OSError):

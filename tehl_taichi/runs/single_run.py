@@ -43,6 +43,17 @@ def _run(scene, path, force, threads, arch, progress, case=False):
         return _begin(scene, place, _Clock(began), progress)
 
 
+def check(scene, path=None, force=False, threads=None, arch=None):
+    """Raise the errors of :func:`run` that come before its first result, without writing anything."""
+    from tehl_taichi.engine import runtime
+    from tehl_taichi.store.store_draft import StoreDraft
+
+    runtime.check(arch, threads)
+    _check_memory(scene)
+    if path is not None:
+        StoreDraft.check(path_of("path", path), force)
+
+
 def _check_memory(scene):
     """Raise SceneError if a run of the scene needs more memory than is available."""
     from tehl_taichi.scene import memory_demand

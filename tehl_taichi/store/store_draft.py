@@ -29,13 +29,17 @@ class StoreDraft(Draft):
                 pass
             number += 1
 
+    @classmethod
+    def check(cls, path, replace=False):
+        """Raise the errors of a new draft, without making it."""
+        cls(path, replace, reserve=False).give_up()
+
     def allowed(self, replace):
         self.check_outside()
         if replace and os.path.lexists(self.path):
             return lock_to_replace(self.path)
         _check_free(self.path)
         return None
-
 
     def check_outside(self):
         user_files.check_outside(self.path)
@@ -60,12 +64,17 @@ def _check_free(path):
         if integrity.is_store(path):
             raise StoreError(exists(path))
         raise StoreError(f"{path} exists already and is not a store; choose another --out")
-    parent = path.absolute().parent
-    while not os.path.lexists(parent):
-        parent = parent.parent
-    if not parent.is_dir() or not os.access(parent, os.W_OK):
-        raise StoreError(f"cannot write to {parent}: no permission, read-only or not a folder")
-    check_room(parent)
+    check_room(writable_folder(path))
+
+
+def writable_folder(path):
+    """The folder at `path`, or the nearest existing one above it. Raises StoreError if it cannot be written."""
+    folder = path.absolute()
+    while not os.path.lexists(folder):
+        folder = folder.parent
+    if not folder.is_dir() or not os.access(folder, os.W_OK):
+        raise StoreError(f"cannot write to {folder}: no permission, read-only or not a folder")
+    return folder
 
 
 def check_room(folder):

@@ -89,6 +89,14 @@ class Study(LockedFolder):
         another sweep is writing.
         """
         path = Path(path)
+        cls.check(path, plan)
+        with disk_errors(path, "cannot write to"):
+            path.mkdir(parents=True, exist_ok=True)
+        return locked_folder(path, lambda lock: cls._locked(path, plan, lock))
+
+    @staticmethod
+    def check(path, plan):
+        """Raise StoreError if the study of `plan` cannot be written at `path`, because other results are there."""
         attrs = attributes(path)
         check_outside(path)
         if attrs is None and (path.is_file() or path.is_dir() and any(path.iterdir())):
@@ -98,9 +106,6 @@ class Study(LockedFolder):
                              f"mixed. Choose another --out, or use version {version}")
         if attrs is not None and not plan.matches(attrs[PLAN]):
             raise StoreError(f"{path} holds another study; choose another --out or remove it")
-        with disk_errors(path, "cannot write to"):
-            path.mkdir(parents=True, exist_ok=True)
-        return locked_folder(path, lambda lock: cls._locked(path, plan, lock))
 
     @classmethod
     def _locked(cls, path, plan, lock):

@@ -33,13 +33,11 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
     """
     from tehl_taichi.runs.sweep import case, pool
     from tehl_taichi.runs.sweep.study_table import Study
-    from tehl_taichi.store.store_draft import check_room
 
     workers, threads = check_settings(workers, threads_per_worker, scheduler, keep)
     refused = plan.refused()
     path = path_of("path", path) if path is not None else default_path(plan)
-    if keep == "stores":
-        check_room(_nearest_folder(path))
+    check_place(plan, path, keep)
     with Study.write(path, plan) as study:
         _report_refused(study, refused)
         todo = study.open_cases
@@ -67,9 +65,15 @@ def check_settings(workers=None, threads_per_worker=None, scheduler=None, keep="
     return workers, threads
 
 
-def _nearest_folder(path):
-    """Folder at `path`, or the nearest existing one above it."""
-    return next(folder for folder in (path.absolute(), *path.absolute().parents) if folder.is_dir())
+def check_place(plan, path, keep="stores"):
+    """Raise StoreError if the study of `plan` cannot be written at `path`, Error if the disk has no room for its stores."""
+    from tehl_taichi.runs.sweep.study_table import Study
+    from tehl_taichi.store.store_draft import check_room, writable_folder
+
+    Study.check(path, plan)
+    folder = writable_folder(path)
+    if keep == "stores":
+        check_room(folder)
 
 
 def default_path(plan):

@@ -1,0 +1,50 @@
+"""--dry-run refuses what the run would refuse, and writes nothing."""
+
+import os
+
+import made_results
+import pytest
+from commands import here
+from small_stores import SMALL
+
+from tehl_taichi.runs.sweep.plan import plan
+from tehl_taichi.runs.sweep.study_table import Study
+
+RUN = ("run", "gear", "--isothermal", "--grid", "64x16", "--dry-run")
+SWEEP = ("sweep", "gear", "--isothermal", "--grid", "64x16", "--over", "srr=0.1,0.2", "--dry-run")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder with a store, a study, a folder and a file of somebody else."""
+    path = tmp_path_factory.mktemp("dry")
+    made_results.run(path / "run.zarr", SMALL, 3)
+    Study.write(path / "study.zarr", plan(SMALL, {"srr": [0.3, 0.4]})).close()
+    (path / "foreign").mkdir()
+    (path / "foreign" / "file").write_text("mine")
+    return path
+
+
+def listed(folder):
+    return sorted(os.path.join(top, name) for top, folders, files in os.walk(folder) for name in (*folders, *files))
+
+
+@pytest.mark.parametrize("words, said", [
+    ((*RUN, "--threads", 0), "threads = 0 is out of range"), ((*RUN, "--threads", -3), "threads = -3 is out of range"),
+    ((*RUN, "--arch", "xyz"), "arch = 'xyz' is not available"), ((*RUN, "--out", "run.zarr"), "run.zarr exists already"),
+    ((*RUN, "--out", "foreign/file", "--force"), "not a store"), ((*RUN, "--out", "foreign"), "not a store"),
+    ((*RUN, "--out", ""), "not a possible name"), ((*RUN, "--out", "foreign/file/a.zarr"), "cannot write to"),
+    ((*RUN, "--out", "run.zarr/a.zarr"), "which holds results"), ((*SWEEP, "--out", "run.zarr"), "is not a study"),
+    ((*SWEEP, "--out", "foreign"), "is not a study"), ((*SWEEP, "--out", "study.zarr"), "holds another study"),
+    ((*SWEEP, "--out", "foreign/file/a.zarr"), "cannot write to")])
+def test_what_the_run_refuses(folder, words, said):
+    before = listed(folder)
+    found = here(*words, cwd=folder)
+    assert found.returncode in (1, 2) and said in found.stderr and not found.stdout and listed(folder) == before
+
+
+@pytest.mark.parametrize("words", [(*RUN, "--out", "run.zarr", "--force"), (*RUN, "--out", "new.zarr", "--threads", 2), SWEEP])
+def test_what_the_run_accepts(folder, words):
+    before = listed(folder)
+    found = here(*words, cwd=folder)
+    assert found.returncode == 0 and found.stdout and listed(folder) == before, found.stderr
