@@ -16,6 +16,7 @@ from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.scene.unit_texts import in_units
 from tehl_taichi.values import plugins
 from tehl_taichi.values.checks import text
+from tehl_taichi.values.file_ending import ending
 from tehl_taichi.values.quantity import kinds
 
 HEADER = """# A tehl_taichi scene. SI units (m, s, N, Pa, kg), temperatures in deg C; [grid] and [time] in half-widths.
@@ -45,7 +46,12 @@ def new(path, base):
 
 
 def check_new(path):
-    """Raise SceneError if no new file can be written at `path`."""
+    """Raise SceneError if no new file can be written at `path`, or its name is not that of a TOML file: a built-in scene may
+    have that name, and tables have others.
+    """
+    if ending(path) != ".toml":
+        example = path.with_suffix(".toml") if path.name else "my.toml"
+        raise SceneError(f"{path} must be the name of a TOML file, as in {example}")
     if os.path.lexists(path):
         raise SceneError(f"{path} exists already; choose another name")
     if not path.absolute().parent.is_dir():

@@ -167,6 +167,8 @@ def test_a_repeated_run_that_breaks_opens_and_resumes_to_the_same_result(finishe
     (("run", "--speed", "0"), "entrainment"), (("run", "--srr", "-2"), "never passes"), (("run", "--sr", "1"), "srr"),
     (("run", "--target-error", "fast"), "0.01% to 50%"), (("run", "--target-error", "1%", "--grid", "coarse"), "1%"),
     (("run", "--srr", "fast"), "'fast'"), (("bench", "sweep", "--workers", "-3"), "'-3'"),
+    (("new", "gear"), "as in gear.toml"), (("new", "fzg-c", "--gears"), "as in fzg-c.toml"),
+    (("new", "tab.csv", "--gears"), "as in tab.toml"), (("new", ""), "as in my.toml"),
     (("show", "nothing.zarr"), "not a store"), (("resume", "nothing.zarr"), "not a store"),
 ])
 def test_bad_input_is_a_sentence_and_writes_nothing(words, said, tmp_path):
