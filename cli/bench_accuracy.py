@@ -23,7 +23,7 @@ def accuracy(
     only: Optional[str] = typer.Option(None, help="run only one part: errors (against run time), coverage (of the error bars), "
                                                   "exits (error bars of exits) or roughness (of rough surfaces, part of "
                                                   "coverage)"),
-    seed: int = typer.Option(4, help="seed of the random scenes that check the error bars"),
+    seed: int = typer.Option(4, min=0, help="seed of the random scenes that check the error bars"),
     judge: bool = typer.Option(False, "--judge", help="evaluate the runs that `--out` already holds"),
     keep: bool = typer.Option(False, "--keep", help="write the errors into the package, for `--target-error`"),
 ):

@@ -14,9 +14,9 @@ OUT = folder("runs/bench", "folder for the JSON file and the figure")
 FORCE = typer.Option(False, "--force", help="replace the results of an earlier run")
 QUICK = typer.Option(False, "--quick", help="small grids and few steps")
 JSON = typer.Option(False, "--json", help="print the JSON object of the file to stdout instead of tables")
-THREADS = typer.Option(None, help="CPU threads (default: all)")
+THREADS = typer.Option(None, min=1, max=1024, help="CPU threads (default: all)")
 WRITE = typer.Option(False, "--write", help="replace the suite's table in docs/performance.md (of the current folder)")
-WORKERS = typer.Option(1, help="number of processes, which share the cores")
+WORKERS = typer.Option(1, min=1, help="number of processes, which share the cores")
 
 
 def cores():

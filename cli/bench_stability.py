@@ -15,9 +15,10 @@ def stability(
     out: Path = OUT,
     match: str = typer.Option("", help="run only the cases with this text in their name"),
     thermal: bool = typer.Option(False, "--thermal/--isothermal", help="run the table with temperatures"),
-    random: int = typer.Option(200, help="number of random scenes after the table"),
-    rough: int = typer.Option(0, help="number of random contacts of two ground surfaces, with temperatures, after them"),
-    seed: int = typer.Option(0, help="seed of the random scenes"),
+    random: int = typer.Option(200, min=0, help="number of random scenes after the table"),
+    rough: int = typer.Option(0, min=0, help="number of random contacts of two ground surfaces, with temperatures, after "
+                                             "them"),
+    seed: int = typer.Option(0, min=0, help="seed of the random scenes"),
     quick: bool = typer.Option(False, "--quick", help="run every sixth case and eight random scenes"),
     only_starts: bool = typer.Option(False, "--starts", help="run only scenes with temperatures: the steady start and one "
                                                              "step"),
@@ -47,6 +48,7 @@ def stability(
     chosen = {name: description for name, description in (*list(listed.items())[:: 6 if quick else 1], *drawn.items())
               if match.lower() in name.lower()}
     chosen = suite.starts(chosen) if only_starts or confirm else chosen
+    _check_any(chosen, match, only_starts or confirm, [*listed, *drawn])
     chosen = confirmed_starts.finer(suite.carried(chosen) if by_film else chosen, finer)
     if confirm:
         return _confirm(results, chosen, as_json, workers, threads, again)
@@ -65,6 +67,15 @@ def _say_idle(context, confirm, drawn):
         say_idle(context, "it applies to --confirm only", "again")
     if not drawn:
         say_idle(context, "--random 0 draws no scenes", "seed")
+
+
+def _check_any(chosen, match, starts, names):
+    """Refuse a choice without scenes. SceneError."""
+    from tehl_taichi.errors import SceneError
+
+    if not chosen:
+        kind = "scene with temperatures" if starts else "scene"
+        raise SceneError(f"--match {match!r} is in the name of no {kind}; names: {', '.join(names[:3])}, ...")
 
 
 def _outcomes(chosen, precision, workers, threads):

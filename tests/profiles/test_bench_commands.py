@@ -358,3 +358,17 @@ def test_every_suite_is_tested():
     from typer.main import get_command
 
     assert set(get_command(app).commands["bench"].commands) == set(QUICK)
+
+
+@pytest.mark.parametrize("words, said", [
+    (("speed", "--threads", -3), "'-3'; input should be"), (("speed", "--threads", 0), "'0'; input should be"),
+    (("profile", "--isothermal", "--threads", -1), "'-1'; input should be"),
+    (("zoom", "--threads", 0), "'0'; input should be"),
+    (("verdict", "--workers", 0), "'0'; input should be"), (("accuracy", "--seed", -1), "'-1'; input should be"),
+    (("stability", "--random", -5), "'-5'; input should be"), (("stability", "--seed", -1), "'-1'; input should be"),
+    (("stability", "--match", "nothing", "--random", 0), "--match 'nothing' is in the name of no scene"),
+    (("stability", "--match", "nothing", "--starts", "--random", 0), "of no scene with temperatures")])
+def test_numbers_and_names_without_work_are_refused(words, said, tmp_path):
+    found = here("bench", words[0], "--quick", *words[1:], "--out", tmp_path / "out")
+    assert found.returncode == 2 and said in " ".join(found.stderr.replace("│", " ").split()), found.stderr
+    assert not (tmp_path / "out").exists()
