@@ -140,6 +140,13 @@ def check(path, attrs, arrays, scene, needed):
             raise damage_error(path, f"{name} has the shape {shape}, but its scene and entries need {needed}")
 
 
+def check_folders(path, names):
+    """Refuse to continue a store without the folder of one of these arrays."""
+    for name in names:
+        if not (path / name).is_dir():
+            raise damage_error(path, f"the folder of its array {name!r} is missing")
+
+
 def _shape(metadata):
     try:
         return list(metadata["shape"])

@@ -87,6 +87,7 @@ class Store(LockedFolder, Reader):
     def _to_resume(cls, path, lock):
         store = cls._opened(path, lock)
         integrity.check_version(path, store.attrs)
+        integrity.check_folders(path, store.stored)
         return store
 
     def append(self, snapshot, state=None, shown=True):

@@ -78,6 +78,12 @@ def test_a_series_is_checked_before_it_is_shown(path, name):
         Store.open(path)
 
 
+def test_a_store_without_the_folder_of_a_field_is_damaged_and_not_continued(path):
+    shutil.rmtree(path / "pressure")
+    with pytest.raises(StoreError, match="is damaged: the folder of its array 'pressure' is missing; .*repeats the run"):
+        Store.write(path)
+
+
 def test_a_field_is_checked_too(path):
     noisy = shot(3)
     noisy.fields["film"] = np.random.default_rng(2).random((33, 9))  # does not compress: a flipped bit is another number
