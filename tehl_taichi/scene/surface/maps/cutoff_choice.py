@@ -5,7 +5,7 @@ import math
 
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.surface.maps import flattening_pressure, gaussian_filter
-from tehl_taichi.scene.surface.maps.height_map import Measures, lost_share
+from tehl_taichi.scene.surface.maps.height_map import Measures, error_on_grid
 from tehl_taichi.scene.yield_pressure import YIELDS
 
 STEEP = 10.0  # degrees: the film equation takes slopes for small (tan 10 deg = 0.18)
@@ -65,4 +65,4 @@ def _is_suitable(f, scene, cutoff):
     """Whether the map with this cutoff (m) is resolved, has small slopes and is carried by steel."""
     measured = middle(f.filtered(cutoff))
     return (Measures.of(measured, f.steps).slope <= STEEP and not yields(heights := middle(f.passing(cutoff)), f, scene)
-            and lost_share(heights, *points_in_a_cell(f, scene)) <= SHARE)
+            and error_on_grid(heights, *points_in_a_cell(f, scene)) <= SHARE)

@@ -210,9 +210,9 @@ def gradients(heights, steps):
     return (along if along.size else 0 * across), (across if across.size else 0 * along)
 
 
-def lost_share(heights, along, across):
-    """Share of the rms of `heights` that a coarse grid loses: every `along`-th point along x and `across`-th along y is kept
-    (not necessarily whole numbers), and the rest interpolated linearly.
+def error_on_grid(heights, along, across):
+    """Error (rms) of `heights` on a coarse grid, over their rms: every `along`-th point along x and `across`-th along y is kept
+    (not necessarily whole numbers), and the rest interpolated linearly. Above 1 where that shows waves that are not there.
     """
     rms = float(heights.std())
     seen = _resampled(_resampled(heights, along).T, across).T

@@ -18,7 +18,7 @@ from tehl_taichi.scene.surface.maps.cutoff_choice import (
     yields,
 )
 from tehl_taichi.scene.surface.maps.form import FLAT
-from tehl_taichi.scene.surface.maps.height_map import LEVELS, ROWS, lost_share
+from tehl_taichi.scene.surface.maps.height_map import LEVELS, ROWS, error_on_grid
 from tehl_taichi.scene.yield_pressure import STEEL
 from tehl_taichi.values.coded_text import Option, grid_option
 from tehl_taichi.values.coded_warning import with_data
@@ -179,19 +179,19 @@ def _name(f):
 
 def _grid(f, scene):
     steps, heights = points_in_a_cell(f, scene), middle(f.used)
-    lost, own = lost_share(heights, *steps), lost_share(heights, 2, 2)
+    lost, own = error_on_grid(heights, *steps), error_on_grid(heights, 2, 2)
     if lost > SHARE:
         remedy, cutoff = _finer(heights, steps, scene.grid), _cutoff(f, scene)
-        yield with_data(f"{_name(f)}: the grid loses {lost:.0%} of the rms of the {f.shape} "
+        yield with_data(f"{_name(f)}: on this grid the {f.shape} is off by {lost:.0%} of its rms "
                         f"({remedy}{f'; {cutoff}' * bool(cutoff)})", remedy, lost=float(lost))
     if min(steps) < 1 and own > SHARE:
         yield (f"{_name(f)}: points {_apart(f)} um apart are {1 / min(steps):.2g} cells and do not resolve the roughness "
-               f"({own:.0%} of the rms changes without every second point); heights are interpolated linearly")
+               f"(without every second point it is off by {own:.0%} of its rms); heights are interpolated linearly")
 
 
 def resolves_maps(scene):
     """Whether the grid resolves every map of the scene."""
-    return all(lost_share(middle(f.used), *points_in_a_cell(f, scene)) <= SHARE for f in scene.features if f.kind.measured)
+    return all(error_on_grid(middle(f.used), *points_in_a_cell(f, scene)) <= SHARE for f in scene.features if f.kind.measured)
 
 
 def _cutoff(f, scene):
@@ -206,13 +206,13 @@ def _cutoff(f, scene):
 def _finer(heights, steps, grid):
     """Option of the grid that would resolve the map."""
     factor = 2
-    while lost_share(heights, steps[0] / factor, steps[1] / factor) > SHARE:  # ends at the map's own points
+    while error_on_grid(heights, steps[0] / factor, steps[1] / factor) > SHARE:  # ends at the map's own points
         factor *= 2
     (nx, ny), most = (grid.nx * factor, grid.ny * factor), [cells for _, cells in MULTIPLES.values()]
     if nx <= most[0] and ny <= most[1]:
         grid = grid_option(nx, ny)
         return Option(f"{grid} resolves it", f"{grid.words} resolves it")
-    return f"so does every grid up to {most[0]} x {most[1]}; filter the map"
+    return f"and on every grid up to {most[0]} x {most[1]}; filter the map"
 
 
 def _rim(f):

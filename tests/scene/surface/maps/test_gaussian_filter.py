@@ -100,7 +100,7 @@ def test_a_scan_that_the_grid_does_not_carry_is_told_the_cutoff_that_helps(tmp_p
     keys = {"shape": "map", "file": str(tmp_path / "rough.npy"), "unit": "um", "pixel": 2e-6, "taper": 20e-6}
     rough = tehl.Scene.from_dict({**scene("gear").to_dict(), "feature": [keys]})
     steep, missed = (said for said in doubtful_features(rough) if "rough.npy" in said)
-    assert "slopes up to" in steep and "the grid loses" in missed
+    assert "slopes up to" in steep and "on this grid the" in missed
     told = {said.split("feature.cutoff = ")[1].split()[0] for said in (steep, missed)}
     assert len(told) == 1
     fixed = rough.replace(**{"feature.cutoff": float(told.pop())})

@@ -225,10 +225,17 @@ def test_tehl_run_shows_the_map_before_it_computes_anything(taichi_cpu, tmp_path
 def test_a_map_finer_than_the_grid_is_doubted_and_the_grid_named_is_fine(tmp_path):
     rough = with_map(wave(tmp_path, length=60.0))
     (sentence,) = doubts(rough)
-    assert "the grid loses" in sentence and sentence in rough.warnings()
+    assert "on this grid the" in sentence and sentence in rough.warnings()
     nx, ny = sentence.split("--grid ")[1].split()[0].split("x")
     assert doubts(rough.replace(**{"grid.nx": int(nx), "grid.ny": int(ny)})) == []
     assert doubts(rough.replace(**{"grid.nx": int(nx) // 2, "grid.ny": int(ny) // 2})) != []
+
+
+def test_waves_that_a_grid_turns_into_others_are_more_than_the_map(tmp_path):
+    found = doubts(with_map(wave(tmp_path, length=17.0), **{"grid.nx": 64, "grid.ny": 16}))
+    (sentence,) = (said for said in found if "on this grid the" in said)
+    off = int(sentence.split("is off by ")[1].split("%")[0])
+    assert off > 100 and "loses" not in sentence
 
 
 def test_points_too_few_for_their_own_roughness_are_doubted(tmp_path):
@@ -248,13 +255,13 @@ def test_flat_steep_and_cut_off_maps_are_doubted(tmp_path):
 
 
 def test_what_a_grid_misses_is_what_linear_cells_miss():
-    from tehl_taichi.scene.surface.maps.height_map import lost_share
+    from tehl_taichi.scene.surface.maps.height_map import error_on_grid
 
     x = np.arange(2001.0)
     for cells in (4.5, 8.0, 20.0):  # of linear interpolation of a wave of that many cells: (2 pi/cells)^2 sqrt(1/120 + ...)
         heights = np.tile(np.cos(2 * np.pi * x / (cells * 25)), (9, 1))
-        assert lost_share(heights, 25, 1) == pytest.approx((2 * np.pi / cells) ** 2 * np.sqrt(1 / 120), rel=0.12)
-    assert lost_share(heights, 0.5, 1) == 0 == lost_share(0 * heights, 25, 3)
+        assert error_on_grid(heights, 25, 1) == pytest.approx((2 * np.pi / cells) ** 2 * np.sqrt(1 / 120), rel=0.12)
+    assert error_on_grid(heights, 0.5, 1) == 0 == error_on_grid(0 * heights, 25, 3)
 
 
 def test_paths_start_at_the_scene_file_and_a_changed_file_is_another_scene(tmp_path, monkeypatch):
