@@ -35,7 +35,7 @@ def _cells(scene):
 
 def _grid(scene, share=1):
     g = scene.grid
-    return grid_option(g.nx // share, None if scene.one_dimensional else g.ny // share)
+    return grid_option(scene, g.nx // share, g.ny // share)
 
 
 def _shorter(scenes):

@@ -114,7 +114,7 @@ def moved(scene):
         return ""
     per_a = g.nx / (g.x_max - g.x_min)
     as_fine = math.ceil(g.nx * (g.x_max - g.x_min) / (g.x_max + INLETS[0]) / 16 - 1e-9) * 16
-    grid = grid_option(as_fine, None if scene.one_dimensional else g.ny)
+    grid = grid_option(scene, as_fine, g.ny)
     return with_data(f"thick film: the domain begins at {-g.x_min:g} a (grid.x_min = \"auto\"), its {g.nx} columns give "
                      f"{per_a:.3g} per half-width; {grid} makes them as fine as for 2.5 a", grid, x_min_a=float(g.x_min))
 
@@ -124,4 +124,4 @@ def same_cells(scene, x_min=None, y_max=None):
     g = scene.grid
     nx = math.ceil(g.nx * (g.x_max - (x_min or g.x_min)) / (g.x_max - g.x_min) / 16 - 1e-9) * 16
     ny = math.ceil(g.ny * (y_max or g.y_max) / g.y_max / 4 - 1e-9) * 4
-    return grid_option(nx, None if scene.one_dimensional else ny)
+    return grid_option(scene, nx, ny)

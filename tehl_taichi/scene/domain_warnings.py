@@ -87,7 +87,7 @@ def _grid(scene, ends):
     g = scene.grid
     x_min, x_max, y_max = (ends.get(key, getattr(g, key)) for key in ("x_min", "x_max", "y_max"))
     nx, ny = cells("nx", g.nx, (x_max - x_min) / (g.x_max - g.x_min)), cells("ny", g.ny, y_max / g.y_max)
-    return [grid_option(nx, None if scene.one_dimensional else ny)] if (nx, ny) != (g.nx, g.ny) else []
+    return [grid_option(scene, nx, ny)] if (nx, ny) != (g.nx, g.ny) else []
 
 
 def cells(key, count, times):

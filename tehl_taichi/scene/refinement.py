@@ -26,12 +26,12 @@ def first_grid(scene, enough, most):
 def finer_grid_option(scene):
     """Text such as '--grid 512x128 (8 times the work)'; a passage also has twice the steps."""
     work = 2 ** (1 + (not scene.one_dimensional) + scene.transient)
-    return _with_work(grid_option(2 * scene.grid.nx, 2 * scene.grid.ny), work)
+    return _with_work(grid_option(scene, 2 * scene.grid.nx, 2 * scene.grid.ny), work)
 
 
 def finer_along_option(scene):
     """Text such as '--grid 512x64 (4 times the work)': finer along x only, which suffices for an exit (docs/exit.md)."""
-    return _with_work(grid_option(2 * scene.grid.nx, scene.grid.ny), 2 ** (1 + scene.transient))
+    return _with_work(grid_option(scene, 2 * scene.grid.nx, scene.grid.ny), 2 ** (1 + scene.transient))
 
 
 def zoom_option(scene, work):

@@ -130,7 +130,7 @@ def _finer(scene, cells):
     need = {count: max([getattr(scene.grid, count), *(s.grid_for(cells) for s in sights(scene) if s.count == count)])
             for count in MULTIPLES}
     fits = all(need[count] <= most for count, (_, most) in MULTIPLES.items())
-    return grid_option(need["nx"], need["ny"]) if fits else None
+    return grid_option(scene, need["nx"], need["ny"]) if fits else None
 
 
 def warnings(scene):

@@ -44,6 +44,6 @@ def remedy(scene):
     """Option of the grid that resolves the film."""
     size = sufficient_grid(scene)
     if size:
-        grid = grid_option(*size)
+        grid = grid_option(scene, *size)
         return Option(f"use {grid}", f"use {grid.words}")
     return f"no grid up to {FINEST} columns resolves it"

@@ -50,9 +50,9 @@ class Option(str):
         return made
 
 
-def grid_option(nx, ny=None):
-    """Option --grid with these cells; ny: None without variation along y."""
-    if ny is None:
+def grid_option(scene, nx, ny):
+    """Option --grid with these cells; ny does not count in a scene without variation along y."""
+    if scene.one_dimensional:
         return Option(f"--grid {nx}", f"a grid of {nx} columns")
     return Option(f"--grid {nx}x{ny}", f"a grid of {nx} × {ny} cells")
 

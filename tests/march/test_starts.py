@@ -87,7 +87,7 @@ def test_the_reason_names_what_failed():
     heat.report.failed = 2
     assert ": temperatures without a solution in 2 columns" in said() and "held" not in said()
     levels.put(fields.H, levels.G[0, fields.FLOOR])
-    assert "on its floor" in said() and f"--grid {2 * levels.scene.grid.nx}x" in said()
+    assert "on its floor" in said() and f"--grid {2 * levels.scene.grid.nx} (" in said()
     levels.scene = scene("gear").replace(height=9e-6, width=1e-3)
     assert "a feature" not in said() and "a feature rises 9e-06 m" in said(passing=True)
 

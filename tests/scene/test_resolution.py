@@ -49,7 +49,7 @@ COARSE = {
 def test_fewer_than_four_cells_are_refused(values, key, count):
     said = sentence(lambda: on(256, 64, Feature(**values)))
     assert f"{key} = " in said and f"is 3.9 cells of grid.{count} = " in said and "at least 4 cells" in said
-    nx, ny = map(int, re.search(r"--grid (\d+)x(\d+)", said).groups())  # the grid that the sentence names is taken
+    nx, ny = map(int, re.search(r"--grid (\d+)(?:x(\d+))?", said).groups(64))  # the grid that the sentence names is taken
     assert on(nx, ny, Feature(**values)).features and (nx, ny) != (256, 64)
     wider = {name: WIDE if value == NARROW else value for name, value in values.items()}
     assert any(f"{key} = " in line and "16" in line for line in on(256, 64, Feature(**wider)).warnings())

@@ -2,6 +2,7 @@
 
 import json
 import pickle
+from types import SimpleNamespace
 
 import made_results
 import pytest
@@ -63,11 +64,12 @@ def test_reasons_keep_their_code_in_a_summary_and_older_summaries_have_none():
 
 
 def test_options_are_replaced_by_the_words_that_come_with_them():
-    grid = grid_option(512, 128)
+    grid = grid_option(SimpleNamespace(one_dimensional=False), 512, 128)
     made = with_data(f"too coarse; {grid}", grid, cells=3)
     assert made.data == {"cells": 3, "options": {"--grid 512x128": "a grid of 512 × 128 cells"}}
     back, = warnings_of_lists(*map(json.loads, texts([made]).values()))
     assert without_options(back) == "too coarse; a grid of 512 × 128 cells"
+    assert str(grid_option(SimpleNamespace(one_dimensional=True), 512, 128)) == "--grid 512"
     assert without_options("of an older store: --grid 512x128") == "of an older store: --grid 512x128"
 
 

@@ -181,7 +181,7 @@ def _grid(f, scene):
     steps, heights = points_in_a_cell(f, scene), middle(f.used)
     lost, own = error_on_grid(heights, *steps), error_on_grid(heights, 2, 2)
     if lost > SHARE:
-        remedy, cutoff = _finer(heights, steps, scene.grid), _cutoff(f, scene)
+        remedy, cutoff = _finer(heights, steps, scene), _cutoff(f, scene)
         yield with_data(f"{_name(f)}: on this grid the {f.shape} is off by {lost:.0%} of its rms "
                         f"({remedy}{f'; {cutoff}' * bool(cutoff)})", remedy, lost=float(lost))
     if min(steps) < 1 and own > SHARE:
@@ -203,14 +203,14 @@ def _cutoff(f, scene):
             f"from {_um(f.measures.range)} to {_um(left)} um")
 
 
-def _finer(heights, steps, grid):
+def _finer(heights, steps, scene):
     """Option of the grid that would resolve the map."""
     factor = 2
     while error_on_grid(heights, steps[0] / factor, steps[1] / factor) > SHARE:  # ends at the map's own points
         factor *= 2
-    (nx, ny), most = (grid.nx * factor, grid.ny * factor), [cells for _, cells in MULTIPLES.values()]
+    (nx, ny), most = (scene.grid.nx * factor, scene.grid.ny * factor), [cells for _, cells in MULTIPLES.values()]
     if nx <= most[0] and ny <= most[1]:
-        grid = grid_option(nx, ny)
+        grid = grid_option(scene, nx, ny)
         return Option(f"{grid} resolves it", f"{grid.words} resolves it")
     return f"and on every grid up to {most[0]} x {most[1]}; filter the map"
 
