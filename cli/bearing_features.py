@@ -24,6 +24,8 @@ def _parts(text):
     pairs = [part.rpartition("=") for part in text.split(",")]
     plain = [metres("--dent", amount(value)) for key, _, value in pairs if not key]
     named = {key.strip(): metres("--dent", amount(value)) for key, _, value in pairs if key}
+    if len(plain) + len(named) < len(pairs):
+        raise SceneError(f"--dent {text!r} gives a value twice; it has the form {DENT}")
     if len(plain) != 2 or named.keys() - {"rim", "rim_width"}:
         raise SceneError(f"--dent {text!r} must have the form {DENT} (rim_width=WIDTH may follow)")
     return plain, named

@@ -42,6 +42,7 @@ def compare(
     from tehl_taichi.values.checks import number
 
     number("--at", at, "a", -20.0, 20.0)
+    _check_format(context, out, format)
     found: Any = side_by_side(*stores)
     place, page = out or _free_figure(stores[0].parent, format, force), dict(dpi=dpi, format=format, width=width, force=force)
     if isinstance(found, Comparison):
@@ -55,6 +56,16 @@ def compare(
     _scenes(found)
     _results(found) if isinstance(found, Comparison) else _places(found)
     say(str(figure))
+
+
+def _check_format(context, out, format):
+    """Refuse a typed --format that the ending of --out contradicts. SceneError."""
+    from tehl_taichi.errors import SceneError
+    from tehl_taichi.values.file_ending import ending
+
+    typed = context and context.get_parameter_source("format").name == "COMMANDLINE"
+    if typed and out and ending(out) not in ("", f".{format}"):
+        raise SceneError(f"--out {out} does not end in .{format}; omit --format, or choose another --out")
 
 
 def _free_figure(folder, format, force):

@@ -25,6 +25,7 @@ from tehl_cli import (
 )
 from tehl_cli.entry import main
 from tehl_cli.key_as_option import with_hint
+from tehl_cli.single_options import Command
 
 from tehl_taichi.errors import Interrupted, stopped
 
@@ -123,6 +124,13 @@ bench_command.register(app)
 cite_command.register(app)
 
 
+def _use_command_class():
+    """Let all commands, also those of groups, parse their options alike."""
+    for group in (app, *(one.typer_instance for one in app.registered_groups)):
+        for command in group.registered_commands:
+            command.cls = Command
+
+
 def _sort():
     """Sort the commands in the order of PANELS, each below its heading."""
     panels = {name: panel for panel, names in PANELS.items() for name in names}
@@ -135,4 +143,5 @@ def _sort():
         group.rich_help_panel = panels[str(group.name)]
 
 
+_use_command_class()
 _sort()

@@ -93,6 +93,37 @@ def test_keys_that_go_together_do(words):
     assert CliRunner().invoke(app, words.split()).exit_code == 0
 
 
+@pytest.mark.parametrize("words, name", [
+    ("run gear --srr 0.1 --srr 0.2", "--srr"), ("run gear --srr=0.1 --quiet --srr 0.1", "--srr"),
+    ("run gear --thermal --isothermal", "--thermal/--isothermal"), ("sweep gear --grid 64 --over srr=0,1 --grid 32", "--grid"),
+    ("bench speed --threads 1 --threads 2", "--threads"), ("fatigue none --kappa 0.2 --kappa 0.3", "--kappa"),
+    ("bearing 6206 --load 5000 --load 6000", "--load"), ("report none --out a --out b", "--out")])
+def test_an_option_that_is_typed_twice(words, name):
+    from tehl_cli.main import app
+
+    found = CliRunner().invoke(app, words.split())
+    assert found.exit_code == 2 and f"{name} is given twice; give it once" in " ".join(found.output.replace("│", "").split())
+
+
+def test_options_that_take_several_values_do():
+    from tehl_cli.main import app
+
+    words = "sweep gear --over srr=0.1,0.2 --over speed=1,2 --set grid.nx=64 --set grid.ny=16 --dry-run"
+    assert CliRunner().invoke(app, words.split()).exit_code == 0
+
+
+def test_a_figure_and_a_dent_that_are_described_twice(tmp_path):
+    from tehl_cli.bearing_features import dent_of
+    from tehl_cli.main import app
+
+    assert dent_of("10um,0.3mm,rim=1um,rim_width=9um").rim_width == 9e-6
+    with pytest.raises(SceneError, match="gives a value twice"):
+        dent_of("10um,0.3mm,rim=1um,rim=5um")
+    words = ["compare", "a", "b", "--format", "png", "--out", str(tmp_path / "c.pdf")]
+    assert "does not end in .png; omit --format" in str(CliRunner().invoke(app, words).exception)
+    assert "not end" not in str(CliRunner().invoke(app, [*words[:3], "--out", words[-1]]).exception)
+
+
 @pytest.mark.parametrize("text", ["[set]\nsrr = 0.1\n[over]\nsrr = [0.1, 0.2]",
                                   "[set]\nload = 1e6\n[over]\nhertz_pressure = [1e9]",
                                   "[set]\nsrr = 0.1\n[[together]]\nsrr = [0.1, 0.2]\nload = [1e6, 2e6]"])
