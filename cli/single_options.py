@@ -13,6 +13,9 @@ class Command(typer.core.TyperCommand):
 
 
 def _typed_twice(parameters):
-    """Name of an option that occurs twice among the parameters of a command line, "" without one."""
-    single = [one for one in parameters if one.param_type_name == "option" and not one.multiple]
+    """Name of an option that occurs twice among the parameters of a command line, "" without one; of flags only those with an
+    opposite can contradict themselves.
+    """
+    single = [one for one in parameters if one.param_type_name == "option" and not one.multiple
+              and (one.secondary_opts or not one.is_flag)]
     return next(("/".join((*one.opts, *one.secondary_opts)) for n, one in enumerate(single) if one in single[:n]), "")

@@ -121,10 +121,18 @@ def shortened(words, folder):
     if "oil.alpha_40=18e-9,22e-9,26e-9" in words:  # of a scene file whose [oil] is a data sheet
         words = [*words, "--set", "oil.nu_40=220e-6", "--set", "oil.nu_100=19e-6", "--set", "oil.rho_15=890"]
     if words[:1] == ["run"] and "--target-error" in words:
-        return [*words, *AT_REST.split()]
+        return with_options(words, AT_REST.split())
     if words == ["compare", FILLED["STORE"], FILLED["STORE"]]:
         words = ["compare", FILLED["STORE"], "runs/gear.zarr"]
-    return [*words, *SHORT.get(words[0], "").split(), *(("--at", "C") if words[:2] == ["flank", "fzg-c"] else ())]
+    return [*with_options(words, SHORT.get(words[0], "").split()), *(("--at", "C") if words[:2] == ["flank", "fzg-c"] else ())]
+
+
+def with_options(words, more):
+    """The words with more options, in place of those of the same names and their values."""
+    names = {word for word in more if word[:2] == "--"} - {"--set"}
+    kept = [word for before, word in zip(["", *words], words)
+            if word not in names and (before not in names or word[:2] == "--")]
+    return [*kept, *more]
 
 
 def marked():

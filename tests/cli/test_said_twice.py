@@ -108,7 +108,7 @@ def test_an_option_that_is_typed_twice(words, name):
 def test_options_that_take_several_values_do():
     from tehl_cli.main import app
 
-    words = "sweep gear --over srr=0.1,0.2 --over speed=1,2 --set grid.nx=64 --set grid.ny=16 --dry-run"
+    words = "sweep gear --over srr=0.1,0.2 --over speed=1,2 --set grid.nx=64 --set grid.ny=16 --dry-run --dry-run"
     assert CliRunner().invoke(app, words.split()).exit_code == 0
 
 
