@@ -126,7 +126,7 @@ cite_command.register(app)
 
 def _use_command_class():
     """Let all commands, also those of groups, parse their options alike."""
-    for group in (app, *(one.typer_instance for one in app.registered_groups)):
+    for group in filter(None, (app, *(one.typer_instance for one in app.registered_groups))):
         for command in group.registered_commands:
             command.cls = Command
 
