@@ -17,7 +17,7 @@ LINE = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
     (lambda path: tehl.march("gear", state={}), "is not the state of a snapshot"),
     (lambda path: tehl.march("gear", state=3), "state = 3 is not the state of a snapshot"),
     (lambda path: tehl.crack([], lenth=3), r"unknown option 'lenth' \(did you mean 'length'\?\)"),
-], ids=str)
+], ids=["progress", "callable", "force", "state", "number", "crack"])
 def test_a_sentence(wrong, words, tmp_path):
     with pytest.raises(tehl.SceneError, match=words):
         wrong(tmp_path / "line.zarr")

@@ -92,13 +92,14 @@ class Traction:
     def warnings(self) -> list:
         """Keys without effect, and the warnings of the cases: the first of every kind, with the number of its cases."""
         kinds: dict[tuple, list[str]] = {}
+        doubts = [str(one) for one in self.study.plan.doubts()]
         for record in self.study.results():
             own = Kinds()
-            for one in unique(warnings_of(record["summary"] or {})):
+            for one in unique(one for one in warnings_of(record["summary"] or {}) if str(one) not in doubts):
                 kinds.setdefault(own.of(one), []).append(str(one))
         of_cases = [f"{found[0]} ({'the first of ' * (len(set(found)) > 1)}{len(found)} of {len(self.study)} cases)"
                     for found in kinds.values()]
-        return [*self.study.plan.doubts(), *of_cases]
+        return [*doubts, *of_cases]
 
     def to_dict(self) -> dict:
         """The JSON object of `tehl traction --json`."""

@@ -328,10 +328,10 @@ def test_keys_of_a_passage_have_no_effect_where_nothing_passes(tmp_path):
     said = []
     listener = tehl.Progress()
     listener.warn = said.append
-    keys = {"kappa": 0.2, "height": 1e-6, "time.courant": 0.3, "time.steps": 3}
+    keys = {"fatigue.exponent": 9.0, "height": 1e-6, "time.courant": 0.3, "time.steps": 3}
     found = tehl.bearing("6206", changes=keys, run=False, folder=tmp_path / "b", progress=listener)
-    assert [one.partition(" has no effect here: ")[0] for one in said] == ["feature.height", "fatigue.kappa", "time.courant",
-                                                                           "time.steps"]
+    assert [one.partition(" has no effect here: ")[0] for one in said] == ["feature.height", "fatigue.exponent",
+                                                                           "time.courant", "time.steps"]
     assert tehl.open(tmp_path / "b").record["warnings"] == bearing_table.warnings(found) == said
     dent = dict(feature=tehl.Feature(**DENT), run=False, progress=listener)
     dented = tehl.bearing("6206", changes={**keys, "height": -1e-6}, folder=tmp_path / "d", **dent)

@@ -20,7 +20,6 @@ from tehl_taichi.runs.sweep import case
 from tehl_taichi.scene import SceneError, hertz
 from tehl_taichi.scene.gear_pair import gear_pair
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.values.coded_warning import CodedWarning
 from tehl_taichi.values.digits import with_error
 from tehl_taichi.view.figures.figure_style import FigureStyle
 
@@ -284,12 +283,12 @@ def test_every_idle_key_is_reported_once():
     said = []
     listener = tehl.Progress()
     listener.warn = said.append
-    keys, once = {"kappa": 0.2, "time.courant": 0.3, "bodies.a.k": 30.0}, outcomes._KindsOnce(listener)
+    keys, once = {"fatigue.weibull": 24.0, "time.courant": 0.3, "bodies.a.k": 30.0}, outcomes._KindsOnce(listener)
     for name, changes in (("1", keys), ("2", keys), ("3", {**keys, "thermal.nodes": 17})):
         for sentence in tehl.scene("smooth-line").replace(**changes, **{"thermal.on": False}).warnings():
             once.warn_at(name, sentence)
     assert [text.partition(" has no effect")[0] for text in said if "has no effect" in text] == [
-        "1: bodies.a.k", "1: fatigue.kappa", "1: time.courant", "3: thermal.nodes"]
+        "1: bodies.a.k", "1: fatigue.weibull", "1: time.courant", "3: thermal.nodes"]
 
 
 def test_wrong_numbers_of_threads_are_refused_by_the_name_of_their_option():
