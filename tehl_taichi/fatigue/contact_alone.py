@@ -12,8 +12,8 @@ from tehl_taichi.fatigue.stress.steady_sweep import SteadySweep
 @dataclass(frozen=True)
 class ContactAlone:
     """Numbers of one body without features ("Fi_max", "findley_stress_max_Pa", "depth_m", "surface_Fi_max" of its surface, and
-    "shear_counted": the shear of the film is included), and Findley stress f (Pa) at the surface and at the depths of
-    :func:`tehl_taichi.fatigue.depth_profile.ladder`.
+    whether the shear of the film and residual stress count, "shear_counted" and "residual_counted"), and Findley stress f (Pa)
+    at the surface and at the depths of :func:`tehl_taichi.fatigue.depth_profile.ladder`.
     """
 
     summary: dict
@@ -43,7 +43,7 @@ def search(scene, reader, surface):
             worst, depth, local = point.f, point.depth, point.local
     return ContactAlone({"Fi_max": worst / local.endurance, "findley_stress_max_Pa": worst, "depth_m": depth,
                          "surface_Fi_max": float(surface_f[0]) / strength.surface_limit,
-                         "shear_counted": scene.fatigue.shear,
+                         "shear_counted": scene.fatigue.shear, "residual_counted": strength.has_residual,
                          "von_mises": von_mises.summary(peaks, top.value, surface, strength)}, f)
 
 

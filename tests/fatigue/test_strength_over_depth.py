@@ -1,5 +1,7 @@
 """The index by a strength that varies with depth: a constant table is the plain number, another one moves the worst depth."""
 
+import math
+
 import numpy as np
 import pytest
 from rolling import Rolling
@@ -138,8 +140,12 @@ def test_the_limit_means_a_smooth_contact_of_its_pressure(plain):
     p_H = Scales.of(GEAR).p_H
     p, error = limit_meaning.smooth_pressure({"hertz": {"p_Pa": p_H}, "fatigue": summary})
     assert p == pytest.approx(400e6 / 0.25, rel=0.01)  # shear ranges over 0.5 p_H below a line (Johnson 1985)
-    assert error == pytest.approx(p * 0.01 / summary["contact_alone"]["Fi_max"])
+    Fi = summary["contact_alone"]["Fi_max"]
+    assert error == pytest.approx(p * math.hypot(0.01 / Fi, limit_meaning.DISPROPORTION * math.log(Fi)))
+    with_residual = search(True, **{**changes, "fatigue.residual_xx": 5e8}).summary
+    with_residual["contact_alone"]["error"] = {"Fi_max": 0.01}  # it does not grow with the pressure
+    assert limit_meaning.smooth_pressure({"hertz": {"p_Pa": p_H}, "fatigue": with_residual}) is None
     told = limit_meaning.sentence({"hertz": {"p_Pa": p_H}, "fatigue": summary}, GEAR.fatigue)
-    assert "595.2 MPa in reversed bending, 383.1 MPa in torsion" in told and f"{p / 1e9:.3f}" in told
+    assert "595.2 MPa in reversed bending, 383.1 MPa in torsion" in told and f"{p / 1e9:.2f}" in told
     contact = GEAR.replace(**{"fatigue.limit_of": "contact"}).fatigue
     assert "that of a contact" in limit_meaning.sentence({"hertz": {"p_Pa": p_H}, "fatigue": summary}, contact)

@@ -70,6 +70,11 @@ class Strength:
         """Whether a table gives the residual stress."""
         return self.table is not None and (self.table.has(RESIDUAL[0]) or self.table.has(RESIDUAL[1]))
 
+    @property
+    def has_residual(self):
+        """Whether there is a residual stress, from a table or constant."""
+        return self.varies_in_residual or bool(self.fatigue.residual_xx or self.fatigue.residual_yy)
+
     def residual(self, depths):
         """Residual stress (along x, along y), Pa, at depths (m): arrays from a table, else the constants of the scene."""
         constant = self.fatigue.residual_xx, self.fatigue.residual_yy
