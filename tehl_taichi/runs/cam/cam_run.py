@@ -1,5 +1,6 @@
 """Computation of a cycle of a cam: its angles, their runs, the record of both."""
 
+import dataclasses
 from os import PathLike
 
 from tehl_taichi.errors import SceneError, interrupt
@@ -11,7 +12,7 @@ from tehl_taichi.runs.flank.flank_run import all_changes, first_free_folder
 from tehl_taichi.runs.flank.line_contacts import scene_at, scene_with_grid_at
 from tehl_taichi.runs.flank.outcomes import summaries
 from tehl_taichi.runs.progress import Progress, progress_of
-from tehl_taichi.scene import Scene, grid_for_features
+from tehl_taichi.scene import Scene, grid_for_features, idle_keys
 from tehl_taichi.scene import scene as built_in
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.scales import Scales
@@ -39,7 +40,8 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     passes = {"time.steady_only": steady}
     own, choose = base if base.features and not steady else smooth(base), grid_for_features.is_grid_open(start, changes)
     chosen = scene_with_grid_at if choose and feature is not None and not steady else _with_own_grid
-    found = {n: chosen(own, {**changes, **passes}, path.stem, n + 1, at) for n, at in enumerate(places) if not at.without_film}
+    found = {n: chosen(_as_it_moves(own, at), {**changes, **passes}, path.stem, n + 1, at) for n, at in enumerate(places)
+             if not at.without_film}
     scenes = {n: one for n, (one, _) in found.items()}
     if not scenes:
         raise SceneError(f"table {path}: no angle has a film; the first one: {places[0].without_film}")
@@ -49,6 +51,15 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     for grid in (grid for _, grid in found.values() if grid):
         progress_of(progress).say(grid)
     return _run(made, scenes, workers, threads, progress)
+
+
+def _as_it_moves(base, at):
+    """The base scene, with mirrored features for a position whose contact moves backwards."""
+    if at.u_a + at.u_b >= 0:
+        return base
+    features = [dataclasses.replace(f, x=-f.x, **({"mirror_x": not f.mirror_x} if "mirror_x" in f.kind.uses else {}))
+                for f in base.features]
+    return dataclasses.replace(base, features=tuple(features)).with_user_keys(idle_keys.user_keys(base))
 
 
 def _with_own_grid(*position):

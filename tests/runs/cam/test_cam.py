@@ -1,5 +1,6 @@
 """A cam: its table, its scenes, files, figure and page, and a cycle that is computed."""
 
+import dataclasses
 import json
 import math
 
@@ -167,3 +168,19 @@ def test_a_cycle_is_computed(taichi_cpu, tmp_path):
     assert found.returncode == 0, found.stderr
     first, image, slow = (one["summary"]["steady"] for one in json.loads(found.stdout)["positions"])
     assert first["h_c_m"] == image["h_c_m"] > 1.5 * slow["h_c_m"] and first["friction_coefficient"] > 0
+
+
+def test_a_contact_that_moves_backwards_has_the_mirror_image_of_its_feature():
+    """A saw-tooth beside the middle: turned round, and on the other side; shapes that are even along x stay as they are."""
+    from tehl_taichi.runs.cam.cam_run import _as_it_moves
+    from tehl_taichi.runs.cam.cam_table import CamPosition
+
+    tooth = tehl.Feature.from_heights(np.tile(np.linspace(0, 1e-6, 60), (40, 1)), 5e-6, x=2e-5)
+    dent = tehl.Feature(height=-1e-6, x=2e-5)
+    base = dataclasses.replace(tehl.scene("gear"), features=(tooth, dent))
+    ahead, back = (_as_it_moves(base, CamPosition(0.0, 0.02, 1e5, sign * 2.0, sign * 0.8)) for sign in (1, -1))
+    assert ahead is base and back.features[1] == dataclasses.replace(dent, x=-2e-5)
+    x, y = np.linspace(-2e-4, 2e-4, 81)[None, :], np.linspace(-5e-5, 5e-5, 9)[:, None]
+    heights = [sum(f.height_at(side * x - f.x, y) for f in scene.features) for scene, side in ((ahead, 1), (back, -1))]
+    np.testing.assert_allclose(heights[0], heights[1], atol=1e-12)
+    assert np.ptp(heights[0]) > 5e-7 and not [one for one in back.warnings() if "mirror" in one]
