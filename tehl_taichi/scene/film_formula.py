@@ -31,15 +31,24 @@ def central_film(scene, ratio=None):
 SPREADS = {"line": ((1e9, 0.09), (3e9, 0.16)), "wide": ((2e9, 0.07),), "slender": ((2e9, 0.15),)}
 COMPARED = 0.2, 3.0  # R_x/R_y
 BEYOND = 0.25  # where nothing was compared
+# Films (a^2/R') from which on formulas are 15 to 27 % above (balls and lines at 0.2 to 0.6 GPa, films of 3 to 15 a^2/R'; at 0.4
+# and 0.6 within 2 %)
+THICK, ABOVE = 1.0, 0.3
 
 
 def spread(scene):
     """Largest relative difference between :func:`central_film` and a computed isothermal Newtonian film for this scene."""
     s = Scales.of(scene)
+    if _is_thick(scene):
+        return ABOVE
     if not s.line and not COMPARED[0] <= s.curvature <= COMPARED[1]:
         return BEYOND
     known = SPREADS["line" if s.line else "wide" if s.curvature <= 1 else "slender"]
     return next((within for p, within in known if s.p_H <= p * (1 + 1e-9)), BEYOND)
+
+
+def _is_thick(scene):
+    return central_film(scene) > THICK * Scales.of(scene).h
 
 
 def formula_words(scene):
@@ -49,6 +58,7 @@ def formula_words(scene):
     s, within = Scales.of(scene), spread(scene)
     name = "Moes" if s.line else "Nijenbanning, Venner & Moes"
     heavy = ", heavy load" if s.line and within > SPREADS["line"][0][1] or within == BEYOND else ""
+    heavy = ", thick film" if _is_thick(scene) else heavy
     return f"{name}, {scene.contact.kind}, isothermal, Newtonian{heavy}: within {within:.0%}"
 
 

@@ -86,9 +86,19 @@ def test_a_circle_is_what_it_was():
     (tehl.scene("smooth-line").replace(hertz_pressure=3.5e9), 0.25, "heavy load: within 25%"),
     (ellipse(0.5), 0.07, "Nijenbanning, Venner & Moes, elliptic, isothermal, Newtonian: within 7%"),
     (ellipse(1.0), 0.07, "point"), (ellipse(2.0), 0.15, "within 15%"), (ellipse(0.5, 2.5e9), 0.25, "heavy load: within 25%"),
-    (ellipse(0.05), 0.25, "within 25%")])
+    (ellipse(0.05), 0.25, "within 25%"),
+    (tehl.scene("mtm").replace(hertz_pressure=6e8, speed=10.0), 0.3, "thick film: within 30%"),
+    (tehl.scene("smooth-line").replace(hertz_pressure=5e8, speed=20.0), 0.3, "thick film: within 30%")])
 def test_how_good_a_formula_is_is_said(scene, within, words):
     assert spread(scene) == within and words in formula_words(scene)
+
+
+@pytest.mark.parametrize("name, p_H, speed", [("mtm", 3e8, 1.0), ("smooth-line", 4e8, 20.0)])
+def test_thick_films_are_thinner_than_the_formula(name, p_H, speed):
+    """By more than its error for other films, and by less than stated."""
+    scene = tehl.scene(name).replace(**{**FILM, "hertz_pressure": p_H, "speed": speed, "srr": 0.0, "rheology.law": "newtonian"})
+    steady, = tehl.simulate(scene)
+    assert 0.1 < central_film(scene) / steady.scalars["h_c_m"] - 1 < spread(scene)
 
 
 @pytest.mark.parametrize("p_H", [0.5e9, 1e9, 3e9])
@@ -119,8 +129,8 @@ def test_a_dry_run_tells_the_contact_and_starts_nothing(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("tehl_taichi.engine.runtime.start", lambda *_, **__: pytest.fail("started"))
     words = ["run", "ball-on-disc", "--set", "contact.kind=elliptic", "--set", "contact.radius_y=0.03", "--dry-run"]
-    done = CliRunner().invoke(app, [*words, "--kappa", "0.2"])
+    done = CliRunner().invoke(app, [*words, "--set", "fatigue.length=5e-6"])
     assert done.exit_code == 0 and not list(tmp_path.iterdir())
     for said in ("half-width a = ", "half-axis b = ", "p_H = ", "h_c by formula: ", "elliptic", "0 steps",
-                 "warning: fatigue.kappa has no effect here"):
+                 "warning: fatigue.length has no effect here"):
         assert said in done.output, done.output
