@@ -55,7 +55,8 @@ def check_effect(scene, changes):
     strange, changed = idle_keys.idle_warnings(scene), idle_keys.changed_keys(scene, changes)
     for key, _, value in keys.every(scene):
         if key in strange and key in changed:
-            raise SceneError(f"{aliases.words(idle_keys.short_key(key, scene), value)} has no effect: {strange[key]}")
+            given = changes.get(key, value)
+            raise SceneError(f"{aliases.words(idle_keys.short_key(key, scene), given)} has no effect: {strange[key]}")
 
 
 def _clear(data, changes):
