@@ -297,7 +297,7 @@ RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _
 
 def changed_keys(scene, changes):
     """Full keys that the changes {full key: value} of a scene give; a value may be a whole part: features, an oil, a body."""
-    parts, found = keys.parts(scene), set()
+    parts, found = keys.parts(scene), set[str]()
     for key, value in changes.items():
         each = {f"feature.{n}": one for n, one in enumerate(value)} if key == "feature" else {key: value}
         for name, one in each.items():
