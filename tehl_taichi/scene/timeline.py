@@ -5,6 +5,9 @@ import math
 from tehl_taichi.scene.scales import Scales
 
 OIL_CELLS = 1.5  # a step of a passage moves the faster surface by at most so many cells
+# and, without temperatures, by at most this part of a if its stresses are searched: a body that moved 2.4 a between two moments
+# had an index of 0.39 in place of 0.45, less than that of the smooth contact
+STEEL_STEP = 1 / 4
 LATEST = 1.1  # a, from X = 0 to the features where they are outside the contact
 ALL = -1  # as time.steps
 
@@ -12,14 +15,21 @@ ALL = -1  # as time.steps
 def step_cells(scene):
     """Cells that the first feature moves in a time step.
 
-    The fastest feature moves time.courant; with temperatures it is a whole fraction of that if the other surface is much
-    faster.
+    The fastest feature moves time.courant; a whole fraction of that if the other surface is much faster and its temperatures or
+    its stresses are computed.
     """
     cells = scene.time.courant / max((s.pace for s in scene.surfaces if s.features), default=1.0)
-    if scene.isothermal:
-        return cells
     other = next(s for s in scene.surfaces if s.name != scene.reference.name)
-    return cells / max(1, math.ceil(cells * other.pace / OIL_CELLS - 1e-9))
+    return cells / max(1, math.ceil(cells * other.pace / _most_cells(scene, other) - 1e-9))
+
+
+def _most_cells(scene, other):
+    """Cells that the other surface may move in a step."""
+    if not scene.isothermal:
+        return OIL_CELLS
+    if not (scene.has_fatigue and other.name in (surface.name for surface in scene.judged)):
+        return math.inf
+    return max(OIL_CELLS, STEEL_STEP * scene.grid.nx / (scene.grid.x_max - scene.grid.x_min))
 
 
 def step_length(scene):

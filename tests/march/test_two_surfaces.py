@@ -146,3 +146,14 @@ def test_a_store_keeps_how_far_each_surface_has_moved(tmp_path):
     assert len(X) == 3 and X[0] == pytest.approx(scene.path[0] * Scales.of(scene).a)
     del store.series["displacement_b_m"]  # as in stores of older versions
     np.testing.assert_allclose(store.displacement("b"), X * u_b / u_a, rtol=1e-14)
+
+
+def test_a_fast_smooth_body_is_searched_in_steps_that_resolve_its_load():
+    """A low ridge on the slow surface adds little: the other body has at least what the smooth contact does to it."""
+    fast = line(-1.9, "a", -1, hertz_pressure=1.2e9, height=1e-7, **{"fatigue.surfaces": "b", "numerics.estimate_error": False})
+    pace, a = (1 - -1.9 / 2) / (1 + -1.9 / 2), fast.grid.nx / (fast.grid.x_max - fast.grid.x_min)
+    assert step_cells(fast) * pace <= a / 4 < step_cells(fast.replace(**{"fatigue.on": False})) * pace
+    assert step_cells(line(-1.0)) == step_cells(line(-1.0, **{"fatigue.on": False})) == 1.0
+    shots = marched(fast.replace(**{"srr": -1.8, "time.x_end": 1.1}))
+    found = assessment.run(fast.replace(srr=-1.8), shots).summary
+    assert found["Fi_max"] > found["contact_alone"]["surface_Fi_max"]
