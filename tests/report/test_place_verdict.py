@@ -98,3 +98,9 @@ def test_a_note_that_all_places_have_is_said_once():
     assert _enumeration([f"at surface a{note}", f"61 µm below it{note}"]) == f"at surface a and 61 µm below it{note}"
     assert _enumeration([f"at surface a{note}", "at surface b"]) == f"at surface a{note} and at surface b"
     assert _enumeration(["A", "B", "C"]) == "A, B and C" and _enumeration([f"A{note}"]) == f"A{note}"
+
+
+def test_a_place_that_surely_exceeds_the_limit_is_worse_than_a_larger_index_that_may_not():
+    rows = [(name, 1e9, {"fatigue": search(Fi, error)}) for name, Fi, error in (("A", 1.2, 0.05), ("B", 1.3, 0.5))]
+    places = place_verdict.judged_places(rows, str, str)
+    assert place_verdict.worst(places).Fi == 1.2

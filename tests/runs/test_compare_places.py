@@ -10,7 +10,11 @@ from tehl_cli.main import app
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl
+from tehl_taichi.runs import place_table
+from tehl_taichi.runs.cam import cam_columns
 from tehl_taichi.runs.compare_change import NOT_SEPARATED, are_separated, change
+from tehl_taichi.runs.compare_places import PlaceComparison
+from tehl_taichi.runs.flank import flank_columns
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.runs.sweep import case
 
@@ -23,6 +27,11 @@ BASE = tehl.scene("gear").replace(**{"thermal.on": False})
     ((1.0, 0.0), (1.0, 0.0), ""), ((0.01, 0.02), (0.3, 0.02), ""), ((0.02, 1e-3), (0.3, 1e-3), "x 15")])
 def test_a_change_is_held_against_error_bars_and_the_size_of_the_quantity(first, second, expected):
     assert change(first, second, nothing=1e-3) == expected
+
+
+def test_negative_numbers_change_by_their_magnitude():
+    """Friction against the direction of x: nearer to zero is more."""
+    assert change((-0.05, 0.001), (-0.06, 0.001)) == "-20%" and change((-0.05, 0.001), (-0.04, 0.001)) == "+20%"
 
 
 def test_temperatures_differ_by_kelvins():
@@ -177,3 +186,27 @@ def test_cams_are_compared_by_angle(tmp_path):
     assert found.differs == {"source": ["t.csv", "u.csv"]}
     assert [(row.place.words, row.change) for row in found.rows if row.name == "steady_h_c_m"] == [
         ("-10 deg", "+50%"), ("10 deg", "+50%")]
+
+
+def test_bars_of_a_line_are_in_the_unit_of_its_values(tmp_path):
+    folder = made_results.flank(tmp_path / "a")
+    record = Flank.open(folder).to_dict()
+    record["positions"][0]["summary"]["steady"] |= {"h_c_m": 2e-7, "error": {"h_c_m": 5e-8}}
+    Flank(folder, record).write()
+    comparison = PlaceComparison("flank", (place_table.place_table("flank", Flank.open(folder)),))
+    _, values, bars = comparison.line(comparison.tables[0], "steady_h_c_m")
+    assert bars[0] / values[0] == pytest.approx(0.25)
+
+
+FACTORS = {"mm": 1e3, "um": 1e6, "N/mm": 1e-3, "GPa": 1e-9, "deg C": 1, "m/s": 1, "": 1}  # from SI
+
+
+@pytest.mark.parametrize("columns", [flank_columns.COLUMNS, cam_columns.COLUMNS], ids=("flank", "cam"))
+def test_printed_units_are_those_that_numbers_are_brought_to(columns):
+    """In the heads of the tables and in the labels of a comparison."""
+    for column in columns:
+        unit = column.head.split()[-1]
+        if unit in FACTORS:
+            assert column.factor == pytest.approx(FACTORS[unit]), column.head
+        if column.name in place_table.CONTACT:
+            assert column.factor == pytest.approx(FACTORS[place_table.CONTACT[column.name][1]]), column.name

@@ -1,5 +1,7 @@
 """Points that are searched again where a run has a fine window."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -106,3 +108,26 @@ def test_numbers_of_all_points_are_those_of_the_run():
     whole = zoomed_points.completed(part, run)["a"]
     assert whole == {"Fi_max": 1.2, "statistics": 1, "stressed": 5, "below": {"Fi_max": 1.6, "statistics": 2}}
     assert part["a"]["statistics"] == 8
+
+
+@pytest.mark.parametrize("y, cut", [(-2.9e-5, True), (-1e-5, False)])
+def test_the_lower_end_across_is_an_end_too(y, cut):
+    """Of a window that is not mirrored."""
+    result = tehl.SearchResult({"surface": "b", "Fi_max": 1.0, "x_m": 0.0, "y_m": y})
+    box = {"b": ((-1e-4, 6e-5), (-3e-5, 3e-5), (0.0, np.inf))}
+    assert zoomed_points.at_an_end(result, box, 2e-6) is cut
+
+
+def test_the_smooth_contact_has_its_stress_at_the_joined_depths():
+    """Linear between those of the run."""
+    whole = replace(found((20, 4), 28), findley_stress_contact_alone=1e12 * DEPTHS)
+    part = tehl.SearchResult({"surface": "a"}, feature_frame_x=X, fatigue_depth=np.array([0.0, 1e-6, 3e-6, 4.5e-6]),
+                             findley_stress_under_row=np.full((4, X.size), 7e8))
+    joined = zoomed_points.deeper(part, whole)
+    assert joined.fatigue_depth.size > DEPTHS.size
+    assert np.allclose(joined.findley_stress_contact_alone, 1e12 * joined.fatigue_depth)
+
+
+def test_both_searches_together_reach_from_the_smallest_depth_to_the_largest():
+    run, part = ({"a": {"below": {"searched_m": ends}}} for ends in ([4e-6, 3e-4], [1e-6, 2e-5]))
+    assert zoomed_points.completed(part, run)["a"]["below"]["searched_m"] == [1e-6, 3e-4]

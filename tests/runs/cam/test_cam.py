@@ -184,3 +184,24 @@ def test_a_contact_that_moves_backwards_has_the_mirror_image_of_its_feature():
     heights = [sum(f.height_at(side * x - f.x, y) for f in scene.features) for scene, side in ((ahead, 1), (back, -1))]
     np.testing.assert_allclose(heights[0], heights[1], atol=1e-12)
     assert np.ptp(heights[0]) > 5e-7 and not [one for one in back.warnings() if "mirror" in one]
+
+
+def test_a_follower_at_rest_has_a_film():
+    """Sliding alone, slide-roll ratio 2: the surfaces do not move against each other."""
+    at = cam_table.CamPosition(angle=0.0, R=0.02, load=1e5, u_a=2.0, u_b=0.0)
+    assert at.srr == 2.0 and at.without_film == ""
+
+
+def test_bars_of_the_figure_are_in_the_unit_of_their_line(tmp_path, monkeypatch):
+    """A fifth of every film."""
+    def work(job, *_):
+        steady = {"h_c_m": 2e-7, "h_min_m": 1e-7, "error": {"h_min_m": 2e-8, "h_c_m": 4e-8}}
+        return {**position(job), "summary": {"steady": steady, "version": "0.9", "wall_s": 2.0}}
+
+    monkeypatch.setattr(case, "run_case", work)
+    rows = "0, 100, 20, inf, 3.0, 1.0, \n10, 100, 20, inf, 3.0, 1.0, \n"
+    axes = cam_figure.drawn(FigureStyle(), tehl.cam(table(tmp_path, rows), folder=tmp_path / "c", workers=1)).axes
+    assert len(axes[0].containers) == 2
+    for line in axes[0].containers:
+        bars = np.array(line.lines[2][0].get_segments())[..., 1]
+        assert np.ptp(bars, axis=1) / 2 / line.lines[0].get_ydata() == pytest.approx(0.2)

@@ -235,3 +235,13 @@ def test_a_commented_gear_file_is_the_pair_again(tmp_path):
     assert refused.returncode == 2 and "--gears and --scan scan.csv contradict each other" in refused.stderr
     unknown = here("new", "other.toml", "--gears", "--base", "gear", cwd=tmp_path)
     assert unknown.returncode == 2 and "unknown gear pair 'gear'" in unknown.stderr
+
+
+@pytest.mark.parametrize("on", ["pinion", "gear"])
+def test_arcs_grow_as_fast_as_the_profile_passes_the_contact(on):
+    """The contact moves along the line of action at omega r_b; surface a at u_a past it meanwhile, linear along the path."""
+    mesh = Mesh(gear_pair("fzg-c"))
+    places, v = positions_along(mesh, on, 40), mesh.omega[0] * mesh.r_b(1)
+    for one, two in zip(places, places[1:]):
+        passed = 0.5 * (one.u_a + two.u_a) * (two.x_pl - one.x_pl) / v
+        assert two.arc - one.arc == pytest.approx(passed, rel=1e-9, abs=1e-12)

@@ -78,3 +78,18 @@ def test_a_table_has_its_own_bulk_temperatures(tmp_path):
     (tmp_path / "t.csv").write_text((tmp_path / "t.csv").read_text().replace("95", "950"))
     with pytest.raises(tehl.SceneError, match="row 2: bulk_C = 950 deg C is out of range"):
         flank_source(tmp_path / "t.csv")
+
+
+def test_almost_all_heat_goes_into_the_body_that_moves():
+    """Almost at rest, body b has no say: the flash falls with the root of the conductivity of body a."""
+    scene = at_point("E").replace(srr=1.999999)
+    before = specific_film.flash(scene, 0.05)
+    ratios = [specific_film.flash(scene.replace(**{f"bodies.{body}.k": scene.body_a.k / 9}), 0.05) / before for body in "ab"]
+    assert ratios == pytest.approx([3.0, 1.0], rel=5e-3)
+
+
+def test_the_specific_film_is_over_the_effective_roughness_whatever_the_sign_of_friction():
+    scene, steady = at_point("E"), {"steady": {"h_min_m": 3e-7, "friction_coefficient": -0.05}}
+    found = specific_film.film_ratios(scene, steady, 0.5e-6)
+    assert found["lambda_GF"] * 0.5e-6 == pytest.approx(specific_film.formula_film(scene, 0.05))
+    assert found["h_min_Ra"] == pytest.approx(0.6)

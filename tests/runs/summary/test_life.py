@@ -62,3 +62,11 @@ def test_it_is_said_and_printed_and_has_a_column_with_its_bar():
     assert what == "passages to initiation, exponent 9, at 25 um (a)" and value == "3910 ± 180"
     columns = numbers({"life": above})
     assert columns["life_passages"] == above["passages"] and error_of("life_passages") in columns
+
+
+def test_of_rough_surfaces_the_worse_percentile_decides_also_below():
+    deep = {"p99": 1.4, "depth_m": 7e-6, "error": {"p99": 0.01}}
+    rough = search(1.9, 1.8, rough=True, statistics={"p99": 1.1, "error": {"p99": 0.01}})
+    rough["below"]["statistics"] = deep
+    found = life.of_searches({"a": rough}, FATIGUE)
+    assert (found["Fi"], found["depth_m"]) == (1.4, 7e-6)

@@ -10,6 +10,7 @@ from map_feature import feature
 from tehl_taichi.report import surface_plots
 from tehl_taichi.runs.summary import result_warnings, rim_warnings
 from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.surface.maps import map_warnings
 
 HALF = {"x": 150e-6, "y": 100e-6}  # m, of the patch
@@ -71,3 +72,17 @@ def test_only_points_that_are_used_count_as_not_measured(tmp_path):
     assert ("not measured", "2, filled in (11 in the whole file)") in surface_plots.map_facts(cut, scene("gear"))
     away = feature(tmp_path / "holed.npy", extent_x=50e-6, extent_y=60e-6, x=0.0)
     assert away.to_rim(20e-6, -31e-6) == pytest.approx((5e-6, -1e-6))
+
+
+def test_near_is_by_the_longer_side_of_a_cell(tmp_path):
+    coarse = store(tmp_path, taper=0.0)
+    coarse.scene = coarse.scene.replace(**{"grid.nx": 256, "grid.ny": 16})
+    dx, dy = Scales.of(coarse.scene).cell(coarse.scene.grid)
+    assert dy > 1.5 * dx and len(said(coarse, 0.0, HALF["y"] - 1.9 * dy)) == 1
+
+
+def test_the_advice_is_that_of_the_axis_along_which_the_rim_is_near(tmp_path):
+    """A patch that is as long as its file along y alone."""
+    long = store(tmp_path, extent_y=0.0)
+    assert "the file ends there; use a scan that is longer along y" in said(long, 0.0, 140e-6)[0]
+    assert "a larger feature.extent_x" in said(long, 145e-6, 0.0)[0]

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from tehl_taichi.errors import UnknownName
-from tehl_taichi.runs.summary import summary_numbers
+from tehl_taichi.runs.summary import search_rows, summary_numbers
 
 WHY = "no oil reaches this friction"
 NO_VERDICT = {"steady": {"h_c_m": 4e-7, "error": {"h_c_m": 1e-9}},
@@ -35,3 +35,9 @@ def test_numbers_of_the_pressure_or_the_contact_alone_are_found_by_their_part():
 def test_a_number_is_printed_by_any_format():
     found = summary_numbers.find(NO_VERDICT, "h_c")
     assert f"{found:.2e}" == "4.00e-07" and f"{found}" == str(found) and "±" in str(found)
+
+
+def test_the_bar_of_a_stress_is_the_same_part_of_it_as_that_of_its_index():
+    found = {"Fi_max": 1.2, "error": {"Fi_max": 0.06}, "findley_stress_max_Pa": 6e8}
+    row = search_rows._judged_stress(found, "findley")
+    assert row.error / row.number == pytest.approx(0.05)
