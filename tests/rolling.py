@@ -31,6 +31,14 @@ class Rolling:
         return {name: found[name] for name in names}
 
 
+class BothSides(Rolling):
+    """The same on both sides of y = 0."""
+
+    def __init__(self, scene, cells=8, rows=5):
+        super().__init__(scene, cells, rows)
+        self.y = np.concatenate([-self.y[:0:-1], self.y])
+
+
 class Dry:
     """The dry contact of a scene, with shear and heat that the bodies share."""
 

@@ -5,10 +5,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from rolling import Rolling
+from rolling import BothSides, Rolling
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import assessment, index_statistics
+from tehl_taichi.fatigue import assessment, depth_profile, index_statistics
 from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.march.accuracy import coarse_runs
@@ -20,6 +20,9 @@ from tehl_taichi.scene.rough_surfaces import is_rough
 
 WAVES = [{"shape": "waviness", "height": 0.1e-6, "width": width, "x": x, "extent_x": 500e-6, "taper": 60e-6}
          for width, x in ((60e-6, 5e-6), (80e-6, -7e-6), (110e-6, 0.0), (200e-6, 3e-6))]
+
+# a round feature of 0.2 half-widths
+NARROW = tehl.scene("gear").replace(**{"thermal.on": False, "feature.width": 0.4 * 0.36216e-3, "fatigue.surfaces": "a"})
 
 
 def rough_line(**changes):
@@ -42,8 +45,7 @@ def test_numbers_are_those_of_the_points_as_often_as_they_stand_for():
 @pytest.mark.parametrize("half", [True, False])
 def test_points_are_those_that_the_feature_passes(half):
     """A round feature of 0.2 a radius: a half domain's points off its edge stand for two."""
-    scene = tehl.scene("gear").replace(**{"thermal.on": False, "feature.width": 0.4 * 0.36216e-3, "fatigue.surfaces": "a"})
-    reader = Rolling(scene, 32, 33)
+    scene, reader = NARROW, Rolling(NARROW, 32, 33)
     if not half:
         reader.y = np.linspace(-1, 1, 65) * reader.s.a
     passage = StressHistories(scene, reader, reader.centres)
@@ -198,3 +200,55 @@ def test_bars_of_a_rough_line_cover_a_grid_four_times_finer(srr, tmp_path):
         for one, other in ((found["statistics"], fine[name]["statistics"]), *known):
             for key in index_statistics.NUMBERS:
                 assert abs(one[key] - other[key]) <= one["error"][key], (name, key, one.get("depth_m"))
+
+
+def test_points_follow_a_feature_that_lies_off_the_axis():
+    """A quarter of a half-width beside it: as many points, around it."""
+    counts = []
+    for y in (0.0, 0.25):
+        reader = BothSides(NARROW, 32, 33)
+        passage = StressHistories(NARROW.replace(**{"feature.y": y * reader.s.a}), reader, reader.centres)
+        found = index_statistics.weights(passage)
+        assert np.mean(passage.y[found.any(axis=0)] / reader.s.a) == pytest.approx(y, abs=0.02)
+        counts.append(found.sum())
+    assert counts[1] == pytest.approx(counts[0], rel=0.05)
+
+
+def test_the_share_above_a_value_is_counted():
+    rng = np.random.default_rng(1)
+    Fi, counts = rng.normal(1, 0.3, 50), rng.integers(0, 3, 50).astype(float)
+    for value, share in zip(*index_statistics.exceeded(Fi, counts)):
+        assert share == pytest.approx(counts[Fi > value].sum() / counts.sum())
+
+
+def test_the_sample_is_spread_over_all_points():
+    chosen = np.flatnonzero(index_statistics.sample(np.ones((100, 40))))
+    assert chosen.size <= index_statistics.SAMPLE and np.ptp(np.diff(chosen)) == 0
+    assert 4000 - chosen[-1] <= chosen[1] - chosen[0]
+
+
+@pytest.mark.parametrize("grows", [0.0, 1.0])
+def test_between_depths_the_stress_is_linear_in_the_logarithm_and_the_limit_that_of_the_depth(grows):
+    """A stress that rises with the logarithm of the depth; the index is even where the limit rises with it."""
+    depths, top = np.geomspace(1e-5, 1e-3, 9), 1e-5
+
+    def limits(at):
+        return [4e8 * (1 + grows * np.log(one / top)) for one in at]
+
+    f = 1e8 * (1 + np.log(depths / top))[:, None] * np.ones(40)
+    profile = SimpleNamespace(depths=depths, f=f, worst=SimpleNamespace(y=0.0))
+    passage = SimpleNamespace(a=1e-3, y=np.zeros(1), strength=SimpleNamespace(limits=limits))
+    for one in index_statistics.below(passage, [profile], np.ones((40, 1)))["by_depth"]:
+        assert one["p99"] == pytest.approx(0.25 if grows else 0.25 * (1 + np.log(one["depth_m"] / top)), rel=1e-6)
+
+
+def test_statistics_below_a_row_need_the_points_that_count_in_it():
+    """Of a window that begins beside the axis: the rows of a search are numbered as in the whole grid."""
+    scene = NARROW.replace(**{"feature.y": 5e-5})
+    reader = BothSides(scene, 16, 17)
+    passage = StressHistories(scene, reader, reader.centres, sought=Sought.COUNTED)
+    counts = index_statistics.weights(passage)
+    assert passage.rows.start > 0 and 0 < counts.any(axis=0).sum() < passage.y.size
+    for n, row in enumerate(range(passage.rows.start, passage.rows.stop)):
+        needed = depth_profile._needed(passage, row, np.array([1e-5, 2e-5]))
+        assert np.array_equal(needed, np.tile(counts[:, n] > 0, 2) if counts[:, n].any() else np.full(2 * passage.x.size, True))

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from rolling import Rolling
+from rolling import BothSides, Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment, stressed_volume
@@ -72,3 +72,34 @@ def test_none_without_an_exponent_or_the_smooth_contact(taichi_cpu):
     assert "stressed" not in assessment.run(scene, Rolling(scene, 12, 1)).summary
     scene = scene.replace(**{"fatigue.weibull": 9.0})
     assert "stressed" not in assessment.run(scene, Rolling(scene, 12, 1), alone=False).summary
+
+
+def test_half_a_domain_stands_for_the_whole(taichi_cpu):
+    """With the feature next to the axis everything is computed: the same sizes, to what rows differ in."""
+    found = []
+    for reader, y in ((Rolling, 0.0), (BothSides, 1e-9)):
+        scene = tehl.scene("gear").replace(**{**WEIBULL, "feature.y": y})
+        found.append(assessment.run(scene, reader(scene, 8, 5)).summary["stressed"])
+    for key in ("volume_m3", "area_m2", "track_equal_m2", "track_equal_surface_m2"):
+        assert found[1][key] == pytest.approx(found[0][key], rel=0.12), key
+
+
+def test_both_areas_of_smooth_track_are_relative_to_one_searched_part(taichi_cpu):
+    """The area that has the risk of the whole, less the searched one."""
+    scene = tehl.scene("gear").replace(**WEIBULL)
+    found = assessment.run(scene, Rolling(scene, 12, 7)).summary["stressed"]
+    below = found["volume_m3"] / found["track_depth_m"] - found["track_equal_m2"]
+    surface = found["area_m2"] / found["track_share"] - found["track_equal_surface_m2"]
+    assert found["track_equal_m2"] > 0 and found["track_equal_surface_m2"] > 0 and below == pytest.approx(surface)
+
+
+def test_steel_that_is_stronger_below_the_surface_has_less_stressed_volume(taichi_cpu, tmp_path):
+    """1.5 times the limit under a thin skin: 1.5^-12 of the volume, all of the surface."""
+    scene, found = tehl.scene("gear").replace(**WEIBULL), []
+    for below in (4e8, 6e8):
+        path = tmp_path / f"{below:g}.csv"
+        path.write_text(f"depth_m,limit_Pa\n0,4e8\n1e-7,{below}\n1e-3,{below}\n")
+        hard = scene.replace(**{"fatigue.table": str(path)})
+        found.append(assessment.run(hard, Rolling(scene, 8, 5)).summary["stressed"])
+    assert found[1]["volume_m3"] == pytest.approx(found[0]["volume_m3"] / 1.5**12, rel=0.05)
+    assert found[1]["area_m2"] == pytest.approx(found[0]["area_m2"])

@@ -94,3 +94,14 @@ def test_under_a_ball_it_has_the_elastic_stress():
     mises = equivalent(deviator(np.moveaxis(space.pressed(p), 1, -1)))[:, 20, 20]
     assert mises.max() == pytest.approx(0.62e9, rel=0.02)
     assert below.depths[mises.argmax()] == pytest.approx(0.48 * 6e-5, abs=4.5e-6)
+
+
+def test_a_body_turned_by_a_right_angle_has_the_turned_stress():
+    """With cells and sides that differ along x and y: xx becomes yy, yz becomes xz."""
+    strain, turned = 1e-3 * np.random.default_rng(4).normal(size=(12, 6, 9, 15)), [1, 0, 2, 3, 5, 4]
+    one = LayeredHalfSpace(STEEL, (9, 15), (4e-6, 7e-6), LAYERS, 1.0)
+    two = LayeredHalfSpace(STEEL, (15, 9), (7e-6, 4e-6), LAYERS, 1.0)
+    stress, sinking = one.answer(strain)
+    other, sunk = two.answer(strain[:, turned].swapaxes(2, 3))
+    assert_allclose(other[:, turned].swapaxes(2, 3), stress, atol=1e-8 * np.abs(stress).max())
+    assert_allclose(sunk.T, sinking, atol=1e-8 * np.abs(sinking).max())

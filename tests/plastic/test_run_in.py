@@ -255,3 +255,12 @@ def test_what_it_left_is_read_as_it_was_written_and_never_taken_for_nothing(done
     assert run_in_file.read(tmp_path) == run_in.RunInState()
     with pytest.raises(StoreError, match="damaged or missing"):
         run_in_file.read(tmp_path, needed=True)
+
+
+def test_the_start_of_all_passages_is_kept_once(tmp_path):
+    """Later states of a passage do not take its place."""
+    (tmp_path / CHECKPOINTS).mkdir()
+    store = SimpleNamespace(path=tmp_path)
+    run_in_file.start_of(store, {"step": np.array(0), "P": np.zeros(3)})
+    found = run_in_file.start_of(store, {"step": np.array(7), "P": np.ones(3)})
+    assert int(found["step"]) == 0 and not found["P"].any()

@@ -8,6 +8,7 @@ import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.view.figures.figure_style import FigureStyle
+from tehl_taichi.view.figures.run_in_data import profiles
 from tehl_taichi.view.figures.run_in_figure import run_in
 
 pytest.importorskip("matplotlib")
@@ -43,3 +44,14 @@ def test_one_body_that_flowed_has_four_panels():
 
 def test_a_run_in_that_changed_nothing_says_so():
     assert drawn(made_run_in.elastic()).get_suptitle() == "gear: run-in of body a, no steel yields"
+
+
+def test_the_profile_is_that_of_the_middle_row():
+    """Of a feature beside it, and where the surface sank less than elsewhere."""
+    scene = tehl.scene("gear").replace(**{"feature.y": 1e-4, "time.run_in": 1, "bodies.a.yield_stress": 2.2e9})
+    state, feature = made_run_in.flowed(), scene.features[0]
+    body = state.bodies["a"]
+    body.start.sinking[:, 0] *= 0.5
+    one, = (profile for profile in profiles(scene, state) if profile.body == "a")
+    assert one.before == pytest.approx(feature.height_at(body.x - feature.x, -feature.y), abs=1e-15)
+    assert one.before - one.after == pytest.approx(body.start.sinking[:, 0], abs=1e-15)
