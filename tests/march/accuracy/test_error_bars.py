@@ -450,3 +450,9 @@ def test_a_reader_whose_fields_take_work_keeps_their_peaks():
     assert first and first == readings.pressure_doubt(reader, [0, 1], 2e9, 1e-4) and reader.asked == [0, 1]
     readings.pressure_doubt(reader, [1], 9e9, 1e-4)
     assert reader.asked == [0, 1, 1]
+
+
+def test_a_largest_value_on_the_axis_is_known_across_it():
+    """The row before the first one is its mirror image: a parabola with its top at y = 0 has nothing between its nodes."""
+    values = np.ones((3, 1)) * (2 - 0.1 * np.arange(5.0) ** 2)
+    assert readings._between(values, 1, 0) == pytest.approx(0.0, abs=1e-15)

@@ -81,3 +81,15 @@ def test_a_window_is_where_its_store_says():
     placed = PlacedWindow.of(window, 0.3)
     moved = PlacedWindow.of(window, 0.3, placed.origin + 1)
     assert (moved.origin, moved.at) == (placed.origin + 1, placed.at)
+
+
+@pytest.mark.parametrize("y", [4e-5, -6e-5])
+def test_a_window_off_the_axis_is_nearest_to_its_feature(y):
+    """Nearness is 1 in its middle row and 0 at both ends."""
+    scene = GEAR.replace(**{"feature.y": y})
+    own = PlacedWindow.of(windows_of(scene, 4)[0], 0.0)
+    w = own.window
+    rows = np.arange(w.row, w.row + w.ny + 1)
+    near = own.nearness(np.array([round(own.at)]), rows)[:, 0]
+    assert w.y_min + rows[np.argmax(near)] * w.dy == pytest.approx(y / Scales.of(scene).a, abs=3 * w.dy)
+    assert near.max() > 0.95 and near[0] == near[-1] == 0

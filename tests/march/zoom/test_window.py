@@ -7,6 +7,7 @@ import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.march.zoom.window import Window, given
+from tehl_taichi.march.zoom.window_levels import WindowLevels
 from tehl_taichi.scene.scales import Scales
 
 GEAR = tehl.scene("gear").replace(**{"thermal.on": False, "grid.nx": 128, "grid.ny": 32})
@@ -109,3 +110,14 @@ def test_cells_of_the_window_resolve_a_feature():
     with pytest.raises(tehl.SceneError, match="too few to resolve it"):
         GEAR.replace(**small)
     assert GEAR.replace(**{**small, "zoom.factor": 4}).zooms
+
+
+def test_the_equations_of_a_window_have_its_cells_also_in_an_ellipse():
+    """Whose lengths across are in half-widths b."""
+    ball = tehl.scene("ball-bearing").replace(**{"grid.nx": 128, "grid.ny": 256, "thermal.on": False})
+    a = Scales.of(ball).a
+    feature = dataclasses.replace(GEAR.features[0], width=0.3 * a, length=0.5 * a, height=1e-7)
+    scene = dataclasses.replace(ball, features=(feature,)).replace(**{"zoom.factor": 2, "time.steady_only": False})
+    w = Window.of(scene, 2)
+    levels = WindowLevels(scene, w)
+    assert (levels.dx, levels.dy) == pytest.approx((w.dx, w.dy))

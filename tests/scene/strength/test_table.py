@@ -11,7 +11,7 @@ from values.test_registry import hold
 
 from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.scene import Scene, SceneError, scene, scene_file
-from tehl_taichi.scene.strength import profiles, table
+from tehl_taichi.scene.strength import profiles, scene_tables, table
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.store import integrity
 from tehl_taichi.store.load_scene import find
@@ -198,3 +198,36 @@ def test_an_exponent_is_none_or_one_at_least(key):
     assert getattr(GEAR.replace(**{f"fatigue.{key}": 1.0}).fatigue, key) == 1.0
     with pytest.raises(SceneError, match=f"fatigue.{key} = 0.5 is out of range; allowed: 0, or at least 1 and"):
         GEAR.replace(**{f"fatigue.{key}": 0.5})
+
+
+def written(folder, head, *rows):
+    path = folder / f"{len(list(folder.iterdir()))}.csv"
+    path.write_text("\n".join((head, *rows)) + "\n")
+    return str(path)
+
+
+def test_inclusions_weaken_the_surface_more_than_the_depth(tmp_path):
+    """Murakami: 1.43 at the surface, 1.56 inside, of equal hardness; a depth of less than an inclusion is the surface."""
+    even = written(tmp_path, "depth_um,hardness_HV", "0,600", "1000,600")
+    made = strength(GEAR.replace(**{"fatigue.table": even, "fatigue.relation": "murakami", "fatigue.inclusion": 64e-6}))
+    surface, inside, deep = (made.at(depth).endurance for depth in (0.0, 50e-6, 1e-3))
+    assert deep / surface == pytest.approx(1.56 / 1.43, rel=1e-6) and inside == surface
+
+
+def test_kappa_of_the_table_comes_before_that_of_the_relation(tmp_path):
+    rows = written(tmp_path, "depth_um,hardness_HV,kappa", "0,600,0.21", "1000,600,0.25")
+    made = strength(GEAR.replace(**{"fatigue.table": rows}))
+    assert made.at(0.0).kappa == 0.21 and made.kappas([1e-3]) == [0.25]
+
+
+@pytest.mark.parametrize("axis", ["xx", "yy"])
+def test_one_column_of_residual_stress_makes_it_vary(tmp_path, axis):
+    rows = written(tmp_path, f"depth_um,limit_MPa,residual_{axis}_MPa", "0,400,-300", "100,400,0")
+    assert strength(GEAR.replace(**{"fatigue.table": rows})).varies_in_residual
+
+
+def test_both_tables_are_named(tmp_path):
+    one, two = (written(tmp_path, "depth_um,limit_MPa", f"0,{limit}") for limit in (400, 500))
+    made = GEAR.replace(**{"fatigue.table": one, "fatigue.table_b": two}).fatigue
+    assert [scene_tables.name_of(made, surface) for surface in "ab"] == ["0.csv", "1.csv"]
+    assert "0.csv and 1.csv" in scene_tables.words(made)

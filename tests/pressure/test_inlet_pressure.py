@@ -1,0 +1,42 @@
+"""Pressure at the border of the grid against the Reynolds equation of the oil beyond it."""
+
+import numpy as np
+import pytest
+
+import tehl_taichi as tehl
+from tehl_taichi.pressure.inlet import Inlet
+from tehl_taichi.pressure.levels import Levels
+from tehl_taichi.scene.scales import Scales
+
+X, STEP = -8.0, 0.1  # a: thick gaps, whose bodies are rigid
+BALL = tehl.scene("ball-on-disc")
+
+
+def at_border(scene, x_min):
+    """(y, film, border pressure) of the first column of a domain from x_min; film: of two rigid paraboloids."""
+    scene = scene.replace(**{"grid.nx": 64, "grid.ny": 16, "grid.x_min": x_min, "grid.y_max": 1.3, "thermal.on": False})
+    levels = Levels(scene, Scales.of(scene), scene.grid.nx, scene.grid.ny)
+    H = levels.X**2 / 2 + levels.scales.curvature * levels.Y[:, None] ** 2 / 2
+    inlet, found = Inlet(levels), np.zeros(H.shape)
+    found[inlet.border] = inlet.without_heat(H, 0.0)
+    return levels.Y, H[:, 0], found[:, 0] * levels.numbers.inv_lambda / levels.scales.p_H
+
+
+def flow_balance(q, H, step):
+    """d/dx (H^3 dq/dx) in the middle of three points."""
+    half = ((H[1:] + H[:-1]) / 2) ** 3
+    return (half[1] * (q[2] - q[1]) - half[0] * (q[1] - q[0])) / step**2
+
+
+@pytest.mark.parametrize("ratio", [0.25, 1.0, 3.0])
+def test_beyond_rigid_paraboloids_the_oil_obeys_the_reynolds_equation(taichi_cpu, ratio):
+    """Div(H^3 grad q) = dH/dX at y = 0, by the borders of three domains; R_x/R_y: ratio."""
+    ellipse = {"contact.kind": "elliptic", "contact.radius_y": BALL.contact.radius_x / ratio}
+    (_, before, of_before), (y, H, q), (_, after, of_after) = (
+        at_border(BALL.replace(**ellipse) if ratio != 1 else BALL, X + step) for step in (-STEP, 0.0, STEP))
+    j = int(np.argmin(np.abs(y)))
+    rows = np.abs(np.arange(j - 1, j + 2))  # of a half domain the mirror image of the first row
+    films = np.array([before[j], H[j], after[j]])
+    balance = (flow_balance(np.array([of_before[j], q[j], of_after[j]]), films, STEP)
+               + flow_balance(q[rows], H[rows], y[1] - y[0]))
+    assert balance == pytest.approx((films[2] - films[0]) / (2 * STEP), rel=0.03)

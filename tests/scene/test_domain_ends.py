@@ -1,0 +1,49 @@
+"""Ends of the domain by what they leave of the film, and grids that keep their cells."""
+
+import re
+
+import pytest
+
+import tehl_taichi as tehl
+from tehl_taichi.scene import domain
+from tehl_taichi.scene.scales import Scales
+
+BALL = tehl.scene("ball-on-disc").replace(**{"thermal.on": False})
+THICK = {"speed": 20.0, "temperature": 60.0, "thermal.on": False}
+
+
+@pytest.mark.parametrize("ratio", [0.3, 1.0, 3.0])
+def test_far_beside_an_ellipse_the_gap_is_that_of_the_rigid_bodies(ratio):
+    """y^2/(2 R_y), in a^2/R'."""
+    scene, Y = BALL.replace(**{"contact.kind": "elliptic", "contact.radius_y": BALL.contact.radius_x / ratio}), 300.0
+    s = Scales.of(scene)
+    assert domain.side_gap(s, Y) == pytest.approx((Y * s.b) ** 2 / (2 * scene.contact.radius_y) / s.h, rel=0.02)
+
+
+def test_a_passage_asks_for_a_longer_domain_than_its_start():
+    scene = tehl.scene("gear").replace(**THICK)
+    passage, start = (domain.within(one, 3e-3).grid.x_min for one in (scene, scene.replace(**{"time.steady_only": True})))
+    assert scene.transient and passage < start
+
+
+def test_ends_that_are_advised_leave_as_little_as_they_say():
+    """At both ends, by the law of what an end costs: a part of (gap over film)^(-3/2)."""
+    s, film = Scales.of(BALL), 0.05
+    found = domain.remedy(BALL, film)
+    for gap, part in ((domain.inlet_gap(s, found["x_min"]), domain.INLET), (domain.side_gap(s, found["y_max"]), domain.SIDE)):
+        assert domain.LEFT["point"] * ((1 + gap / film) / part) ** -1.5 <= domain.LITTLE
+
+
+def test_an_advised_grid_keeps_the_size_of_the_cells():
+    scene = BALL.replace(**{"grid.nx": 128, "grid.ny": 48, "grid.x_min": -2.5, "grid.y_max": 1.5})
+    g = scene.grid
+    nx, ny = map(int, re.findall(r"\d+", str(domain.same_cells(scene, x_min=-6.5, y_max=3.0))))
+    assert (g.x_max + 6.5) / nx == pytest.approx((g.x_max - g.x_min) / g.nx, rel=0.1)
+    assert 3.0 / ny == pytest.approx(g.y_max / g.ny, rel=0.1)
+
+
+def test_a_moved_inlet_is_told_with_the_grid_that_is_as_fine_as_before():
+    scene = tehl.scene("smooth-line").replace(**{**THICK, "hertz_pressure": 5e8, "grid.nx": 256})
+    g, nx = scene.grid, int(re.search(r"--grid (\d+)", str(domain.moved(scene)))[1])
+    usual = g.x_max + domain.INLETS[0]
+    assert g.x_max - g.x_min > 2 * usual and (g.x_max - g.x_min) / nx == pytest.approx(usual / 256, rel=0.08)

@@ -1,0 +1,34 @@
+"""Peaks of a surface: where they are counted, in which direction, and which are high enough."""
+
+import dataclasses
+
+import numpy as np
+
+import tehl_taichi as tehl
+from tehl_taichi.scene import rough_surfaces
+from tehl_taichi.scene.scales import Scales
+
+FEATURE = tehl.scene("gear").features[0]
+
+
+def test_heights_are_relative_to_the_first_feature():
+    two = (dataclasses.replace(FEATURE, x=1e-4, y=5e-5), dataclasses.replace(FEATURE, x=3e-4, y=2e-4))
+    x, y = np.linspace(-3e-4, 3e-4, 31)[:, None], np.linspace(-3e-4, 3e-4, 31)[None]
+    wanted = sum(f.height_at(x + 1e-4 - f.x, y + 5e-5 - f.y) for f in two)
+    assert np.array_equal(rough_surfaces._heights(two, x, y), wanted)
+
+
+def test_peaks_side_by_side_are_counted_across_rolling():
+    """Where no line along it meets more than one."""
+    ball = tehl.scene("ball-on-disc")
+    a = Scales.of(ball).a
+    row = tuple(dataclasses.replace(FEATURE, x=0.0, y=0.2 * n * a, width=0.1 * a, length=0.1 * a) for n in range(-3, 4))
+    assert rough_surfaces._peaks(ball, row) == len(row) >= rough_surfaces.PEAKS
+
+
+def test_waves_lower_than_a_part_of_the_largest_are_no_peaks():
+    heights = np.zeros((101, 1))
+    heights[50], heights[10:40:4] = 1.0, 0.9 * rough_surfaces.HIGH
+    assert rough_surfaces._most(heights) == 1
+    heights[10:40:4] = 1.1 * rough_surfaces.HIGH
+    assert rough_surfaces._most(heights) == 9
