@@ -116,6 +116,7 @@ def test_a_window_that_is_added_later_is_the_same_and_can_be_removed(plain, zoom
     assert numbers(removed.summary) == numbers(plain.summary) and Reader.open(later.path).map("zoom_pressure") is None
 
 
+@pytest.mark.slow  # kernels of a window with temperatures; quick: tests/march/zoom/test_window_heat.py
 def test_a_window_with_temperatures_has_the_hottest_film(folder):
     """Added to a finished run, which marches again for it, and with it."""
     scene = tehl.scene("gear").replace(**{"feature.length": float("inf"), "grid.nx": 64, "fatigue.surfaces": "a",
