@@ -56,10 +56,11 @@ def iterate_border(solver, border, report):
     """
     if border is None or not report.converged or (border.agrees() and not solver.share_load()):
         return report
-    kept, solver.border = (solver.levels.get(fields.P), solver.H0), border
+    kept, load, solver.border = (solver.levels.get(fields.P), solver.H0), solver.load, border
     moved, solver.border = solve_again(solver), None
     if moved.converged:
         return moved.after([report])
+    solver.load = load
     put(solver, *kept)
     solver.residual()
     return report

@@ -27,9 +27,9 @@ GRUBIN, LONG = 0.73, 0.15
 # with temperatures HOT/gap more, HOTTEST at most: oil that flows in at the border is taken to be cold (smooth line at 0.5 GPa,
 # 20 m/s, 60 deg C, SRR -0.5 and -0.1: 0.17 and 0.22 of it with a gap of 2 films, 0.10 and 0.11 with 12)
 STIFF, SOFT, HOT, HOTTEST = 0.03, 0.15, 2.0, 0.2
-# Of the share of the load that the oil beyond the border carries, of which its deflection is left out: films of thick lines at
-# 0.5 GPa, and of circles with M 3 to 20 and 0.6 GPa, err by 0.04 to 0.09 of it, largest pressures by 0.02 to 0.3
-SHARED = 0.15
+# Of the share of the load that the oil beyond the border carries, whose deflection is left out: films of thick lines at 0.5 GPa
+# err by 0.003 to 0.04 of it (pressures by 0.02), of circles with M 3 to 20 and 0.6 GPa by 0.04 to 0.09 (pressures by up to 0.3)
+SHARED = {"line": 0.05, "point": 0.15}
 THINNEST = 2.0  # times as much of the smallest film of a point contact, by its sides
 PRESSURE, SLIDING, HEATING = 2.0, 3.0, 2.0  # of the share of the film: of the largest pressure, friction, rises of temperature
 # Of the change of the film at the sides, for every number of a passage: asperities and dents with sides at 1 b err by 0.01 to
@@ -87,7 +87,7 @@ def domain_error(solver):
     if not inlet.flooded:
         return DomainError(gap=gap, lost=_lost(v, inlet, H, _raised(v, inlet, H)))
     lost, miss = _lost(v, inlet, H, 0.0), np.abs(inlet.beyond() - inlet.now()).max() / inlet.q[-1]
-    film = _left(v, inlet, gap) * lost + GRUBIN * float(miss) + SHARED * inlet.load() / v.scales.load
+    film = _left(v, inlet, gap) * lost + GRUBIN * float(miss) + SHARED[v.scales.kind] * inlet.load() / v.scales.load
     # the inlet has a part in friction that even p = 0 changes little
     friction = max(SLIDING * film, lost if v.scene.isothermal else 0.0)
     return DomainError(film, film * (1.0 if v.line else THINNEST), friction, _before(v, H), gap, lost)
