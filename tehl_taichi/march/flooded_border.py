@@ -25,14 +25,25 @@ def share_load(solver, report):
     After a start, whose way from the Hertz pressure is delicate: of 15 starts with slip and a feature at rest 13 converged
     where that load followed each Newton step, 15 so.
     """
-    before, solver.shares = (solver.levels.get(fields.P), solver.H0, solver.load), True
+    kept, solver.shares = _state(solver), True
     if not (report.converged and solver.share_load()):
         return report
-    again = solve_from_table(solver)
+    return _kept_or_better(solver, report, kept, solve_from_table(solver))
+
+
+def _state(solver):
+    """(P, H0, load that the grid carries) of the state in the table."""
+    return solver.levels.get(fields.P), solver.H0, solver.load
+
+
+def _kept_or_better(solver, report, kept, again):
+    """SolveReport of both solves if the second converged; else put the state of the first, `kept`, back, and return its
+    report.
+    """
     if again.converged:
         return again.after([report])
-    solver.load = before[2]
-    put(solver, *before[:2])
+    *start, solver.load = kept
+    put(solver, *start)
     solver.residual()
     return report
 
@@ -54,13 +65,11 @@ def iterate_border(solver, border, report):
     """Iterate film and border to agreement at constant temperatures. Returns the SolveReport of the last converged solve, whose
     state is in the table.
     """
-    if border is None or not report.converged or (border.agrees() and not solver.share_load()):
+    if border is None or not report.converged:
         return report
-    kept, load, solver.border = (solver.levels.get(fields.P), solver.H0), solver.load, border
+    kept = _state(solver)
+    if border.agrees() and not solver.share_load():
+        return report
+    solver.border = border
     moved, solver.border = solve_again(solver), None
-    if moved.converged:
-        return moved.after([report])
-    solver.load = load
-    put(solver, *kept)
-    solver.residual()
-    return report
+    return _kept_or_better(solver, report, kept, moved)
