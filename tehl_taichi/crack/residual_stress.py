@@ -9,7 +9,7 @@ import numpy as np
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values import units
 from tehl_taichi.values.coerce import plain, shown
-from tehl_taichi.values.column_mark import column_mark, wrong_length
+from tehl_taichi.values.column_mark import column_mark, without_empty_end, wrong_length
 from tehl_taichi.values.quantity import Number
 
 LARGEST = 5e9  # Pa
@@ -87,9 +87,7 @@ def _rows(lines):
     """Array of rows (depth, stress) of such lines; a header line may name the columns. Raises ValueError."""
     if not lines:
         raise ValueError("it is empty")
-    columns, count, why, head = (0, 1), 2, "depth and stress", lines[0][1]
-    while head and not head[-1]:  # spreadsheets end lines with separators
-        head.pop()
+    columns, count, why, head = (0, 1), 2, "depth and stress", without_empty_end(lines[0][1])
     if not all(map(_is_number, head)):
         columns, count, why, lines = _named(head), len(head), "as in the line of names", lines[1:]
     if not lines:

@@ -34,16 +34,18 @@ class ContactSet:
         file = cls._file(folder)
         try:
             return cls._read(folder)
-        except OSError as error:
-            raise StoreError(f"cannot read {file}: {error.strerror or error}") from None
         except DAMAGES as error:
             raise StoreError(f"{file} is damaged ({type(error).__name__}: {error}); repeat the tehl {cls.KIND} command to "
                              f"write it again with --out {folder}, which keeps a copy of this file") from None
 
     @classmethod
     def _read(cls, folder):
-        """The set in a folder. Raises OSError, or one of DAMAGES."""
-        record = files.json_of(cls._file(folder))
+        """The set in a folder. Raises StoreError if its file cannot be read, one of DAMAGES for other contents."""
+        file = cls._file(folder)
+        try:
+            record = files.json_of(file)
+        except OSError as error:
+            raise StoreError(f"cannot read {file}: {error.strerror or error}") from None
         inside = {name: dict(record[name]) for name in cls.TABLES}
         found = cls(Path(folder), {**record, "name": str(record["name"]), **inside})
         found._complete()
@@ -92,8 +94,6 @@ class ContactSet:
         """Refuse the folder of another set, whose results would be lost; keep a copy of a damaged file of this one."""
         try:
             found = cls._read(folder)
-        except OSError as error:
-            raise StoreError(f"cannot read {cls._file(folder)}: {error.strerror or error}") from None
         except DAMAGES:
             return cls._keep_copy(folder)
         if own and found.name != own.name:

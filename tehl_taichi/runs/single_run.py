@@ -13,7 +13,7 @@ from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress, progress_of
 from tehl_taichi.runs.run_in_memory import run_in_bytes
 from tehl_taichi.runs.stored_run import Run
-from tehl_taichi.scene import Scene
+from tehl_taichi.scene import Scene, zoom_room
 from tehl_taichi.store.load_scene import find
 from tehl_taichi.values.checks import flag
 from tehl_taichi.values.coded_warning import texts
@@ -214,7 +214,7 @@ def _finish(saved, state, steady, clock, progress, coarse_answers_until):
     domain = DomainError.from_values(steady["steady_domain"]).of_passage(saved.scene, saved)
     notify = functools.partial(progress.stage, ERRORS)
     passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain, steel.get("run_in"))
-    if saved.scene.zooms and len(saved) > 2:
+    if saved.scene.zooms and len(saved) >= zoom_room.FEWEST:
         from tehl_taichi.runs import zoomed_run
 
         passage, finer, more = zoomed_run.refined(saved, passage, alone if sure else None, domain, progress)

@@ -8,10 +8,16 @@ def column_mark(text):
     return next((mark for mark in MARKS if mark in text), None)
 
 
+def without_empty_end(names):
+    """Names of columns without empty ones at the end: spreadsheets end lines with separators."""
+    last = max((n for n, name in enumerate(names, 1) if name), default=0)
+    return names[:last]
+
+
 def wrong_length(row, count, why="as in the line of names"):
     """End of a sentence about a row with more or fewer cells than `count`; "" for a row that fits.
 
-    Empty cells beyond the names count as none: spreadsheets end lines with separators.
+    Empty cells beyond the names count as none, as in :func:`without_empty_end`.
     """
     if len(row) >= count and not any(row[count:]):
         return ""

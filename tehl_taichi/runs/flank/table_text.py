@@ -7,7 +7,7 @@ import re
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values import units
-from tehl_taichi.values.column_mark import column_mark, wrong_length
+from tehl_taichi.values.column_mark import column_mark, without_empty_end, wrong_length
 
 COMMA = re.compile(r"\s*([-+]?\d*),(\d+(?:[eE][-+]?\d+)?)\s*")  # a decimal one
 WITH_UNIT = re.compile(r"(\w+)\s*[/\[(]\s*(.+?)[\])]?\s*")  # load/N, load (N), load [N]
@@ -30,9 +30,7 @@ def rows(path):
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
     heads, *lines = [line for line in lines if any(line)] or [[]]
-    while heads and not heads[-1]:  # spreadsheets end lines with separators
-        heads.pop()
-    columns = [_column(head) for head in heads]
+    columns = [_column(head) for head in without_empty_end(heads)]
     names = [name for name, _ in columns]
     if twice := sorted({name for name in names if name and names.count(name) > 1}):
         raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")

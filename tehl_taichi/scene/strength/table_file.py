@@ -12,7 +12,7 @@ from tehl_taichi.scene.strength.profiles import PROFILES
 from tehl_taichi.scene.strength.table import DEPTH, HARDNESS, KAPPA, LIMIT, RESIDUAL, YIELD
 from tehl_taichi.values.checks import nearest
 from tehl_taichi.values.coerce import shown
-from tehl_taichi.values.column_mark import column_mark, wrong_length
+from tehl_taichi.values.column_mark import column_mark, without_empty_end, wrong_length
 from tehl_taichi.values.quantity import Number
 
 MOST, LARGEST = 500, 1e6  # rows, bytes
@@ -83,8 +83,7 @@ def _cell(cell, mark):
 def _columns(where, rows):
     """{name in SI units: numbers} of rows of words with the names first. Raises SceneError."""
     names, *lines = rows
-    while names and not names[-1]:  # spreadsheets end lines with marks
-        names.pop()
+    names = without_empty_end(names)
     _check_names(where, names)
     _check_lengths(where, len(names), lines)
     out = {}
