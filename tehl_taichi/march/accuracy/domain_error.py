@@ -15,23 +15,23 @@ from dataclasses import fields as of_class
 import numpy as np
 
 from tehl_taichi.march.accuracy.error_bars import WHOLE
+from tehl_taichi.march.accuracy.heat_before import heat_before
 from tehl_taichi.march.accuracy.side_change import side_change
 from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.inlet import Inlet, far
-from tehl_taichi.scene.domain import LEFT, PASSAGE, SIDE
+from tehl_taichi.scene.domain import PASSAGE, SIDE
 
 GRUBIN, LONG = 0.73, 0.15
-# Of that the bar has, where the border has the pressure of the oil beyond: of a line STIFF and SOFT/(alpha p_H) (nine lines
-# held out, M 2.5 to 50, from -2.5 and -4.5 a: films err by 0.07 to 0.99 of the bar), of a point contact LEFT;
-# with temperatures HOT/gap more, HOTTEST at most: oil that flows in at the border is taken to be cold (smooth line at 0.5 GPa,
-# 20 m/s, 60 deg C, SRR -0.5 and -0.1: 0.17 and 0.22 of it with a gap of 2 films, 0.10 and 0.11 with 12)
-STIFF, SOFT, HOT, HOTTEST = 0.03, 0.15, 2.0, 0.2
-# Of the share of the load that the oil beyond the border carries, whose deflection is left out: films of thick lines at 0.5 GPa
-# err by 0.003 to 0.04 of it (pressures by 0.02), of circles with M 3 to 20 and 0.6 GPa by 0.04 to 0.09 (pressures by up to 0.3)
-SHARED = {"line": 0.05, "point": 0.15}
-THINNEST = 2.0  # times as much of the smallest film of a point contact, by its sides
-PRESSURE, SLIDING, HEATING = 2.0, 3.0, 2.0  # of the share of the film: of the largest pressure, friction, rises of temperature
+# Errors by the domain (lines, circles and ellipses from -2.5 to -8.5 a against 12.5 to 20 a, docs/decisions/02-inlet.md); q:
+# share of the load that the oil before carries, whose deflection of the bodies is left out. Of the film: STIFF of what a border
+# without pressure loses, and q (FLAT + STEEP q); with temperatures HOT/gap more, HOTTEST at most: oil that flows in at the
+# border is taken to be cold
+STIFF, FLAT, STEEP, HOT, HOTTEST = 0.015, 0.05, 0.45, 3.5, 0.25
+# Of the largest pressure: q (PRESSURE + q); by q more: of the smallest film of a point contact, by its sides, and of friction
+PRESSURE, THINNEST, SLIDING = 0.35, 0.25, {"line": 0.2, "point": 0.7}
+HEATING = 2.0  # of the share of the film: of the rises of temperature
+WARMED = 1.7  # of the rise by the heat of the oil before
 # Of the change of the film at the sides, for every number of a passage: asperities and dents with sides at 1 b err by 0.01 to
 # 0.40 of it against 2.5 b, with temperatures by up to 0.50, exits that the grid does not resolve by more (decision 4)
 SIDES = 0.5
@@ -39,15 +39,19 @@ SIDES = 0.5
 
 @dataclass(frozen=True)
 class DomainError:
-    """Relative errors by the domain. film: of the central film; thinnest: of the minimum film; friction: of the friction
-    coefficient; before: error of that coefficient by the oil before the domain; gap: at the inlet, over the film; lost:
-    relative error of the film with a border without pressure; sides: :func:`side_change` of a passage.
+    """Relative errors by the domain. film: of the central film; thinnest: of the minimum film; pressure: of the largest
+    pressure; friction: of the friction coefficient; before: error of that coefficient by the oil before the domain; warmed_a,
+    warmed_b: of the temperatures of the surfaces by it, K; gap: at the inlet, over the film; lost: relative error of the film
+    with a border without pressure; sides: :func:`side_change` of a passage.
     """
 
     film: float = 0.0
     thinnest: float = 0.0
+    pressure: float = 0.0
     friction: float = 0.0
     before: float = 0.0
+    warmed_a: float = 0.0
+    warmed_b: float = 0.0
     gap: float = 0.0
     lost: float = 0.0
     sides: float = 0.0
@@ -74,9 +78,13 @@ class DomainError:
         if name.startswith("friction"):
             return self.friction * abs(value) + self.before
         if name in HEAT:
-            return (PASSAGE if passing else HEATING) * self.film * abs(value - inlet)
-        steady = {"h_c_m": self.film, "h_min_m": self.thinnest, "p_max_Pa": PRESSURE * self.film}
+            return (PASSAGE if passing else HEATING) * self.film * abs(value - inlet) + self._warmed(name)
+        steady = {"h_c_m": self.film, "h_min_m": self.thinnest, "p_max_Pa": self.pressure}
         return (PASSAGE * self.film if passing else steady[name]) * abs(value)
+
+    def _warmed(self, name):
+        """Error (K) of a temperature by the oil before the domain; of the film: the larger one of its surfaces."""
+        return {"surface_a_max_C": self.warmed_a, "surface_b_max_C": self.warmed_b}.get(name, max(self.warmed_a, self.warmed_b))
 
 
 def domain_error(solver):
@@ -87,16 +95,16 @@ def domain_error(solver):
     if not inlet.flooded:
         return DomainError(gap=gap, lost=_lost(v, inlet, H, _raised(v, inlet, H)))
     lost, miss = _lost(v, inlet, H, 0.0), np.abs(inlet.beyond() - inlet.now()).max() / inlet.q[-1]
-    film = _left(v, inlet, gap) * lost + GRUBIN * float(miss) + SHARED[v.scales.kind] * inlet.load() / v.scales.load
-    # the inlet has a part in friction that even p = 0 changes little
-    friction = max(SLIDING * film, lost if v.scene.isothermal else 0.0)
-    return DomainError(film, film * (1.0 if v.line else THINNEST), friction, _before(v, H), gap, lost)
+    outside, sides = inlet.load() / v.scales.load, 0.0 if v.line else THINNEST
+    film = _left(v, gap) * lost + GRUBIN * float(miss) + (FLAT + STEEP * outside) * outside
+    rises = (0.0, 0.0) if v.scene.isothermal else heat_before(solver, inlet)
+    return DomainError(film, film + sides * outside, (PRESSURE + outside) * outside, film + SLIDING[v.scales.kind] * outside,
+                       _before(v, H), WARMED * rises[0], WARMED * rises[1], gap, lost)
 
 
-def _left(v, inlet, gap):
+def _left(v, gap):
     """Part of the error of a border without pressure that remains with a border with pressure."""
-    left = STIFF + SOFT * inlet.q[-1] / v.scales.p_H if v.line else LEFT[v.scales.kind]
-    return left + (0.0 if v.scene.isothermal else min(HOT / gap, HOTTEST))
+    return STIFF + (0.0 if v.scene.isothermal else min(HOT / gap, HOTTEST))
 
 
 def _raised(v, inlet, H):
