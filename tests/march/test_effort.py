@@ -63,7 +63,7 @@ def test_work_is_what_it_was(taichi_cpu, name):
         assert known is None or counts == pytest.approx(known, rel=WITHIN)
 
 
-@pytest.mark.slow  # half a minute
+@pytest.mark.slow  # a minute
 def test_work_does_not_grow_with_the_grid(taichi_cpu):
     """Krylov iterations a step as the asperity comes in, once the guesses have steps to go by: some 29 on 1024 columns where
     only the middle of the contact is distributed."""
@@ -74,7 +74,7 @@ def test_work_does_not_grow_with_the_grid(taichi_cpu):
                     "time.steps": steps}
         return [shot.scalars["cycles"] for shot in march(scene("gear").replace(**incoming))][1:]
 
-    coarse, fine = np.mean(cycles(256, 60)), np.mean(cycles(1024, 24)[16:])
+    coarse, fine = np.mean(cycles(256, 60)), np.mean(cycles(1024, 40)[16:])
     print(f"now: {coarse:.1f} on 256 columns, {fine:.1f} on 1024")
     assert fine < 1.3 * coarse
 
@@ -167,7 +167,7 @@ def test_a_pressure_is_solved_for_roughly_while_temperatures_are_far_off(change,
 
 
 @pytest.mark.parametrize("temperatures, rounds, settles", [
-    ([16.0, 7.4, 7.4, 3.6, 2.3, 7.1, 3.8, 5.8, 3.3] + [2.5] * 23, 9, False),  # one wall, the other wall
+    ([16.0, 7.4, 7.4, 3.6, 2.3, 7.1, 3.8, 5.8, 3.3] + [2.5] * 23, 16, False),  # one wall, the other wall
     ([16.0, 3.2, 1.2, 0.86, 1.5, 0.9, 0.88, 0.8, 0.7, 0.5, 0.3, 0.1, 0.04], 12, True),  # smaller in time
     ([16.0 * 0.8**n for n in range(32)], 26, True),
     ([16.0 * 0.9**n for n in range(32)], 32, False),  # settles too late

@@ -31,7 +31,7 @@ STIFF, FLAT, STEEP, HOT, HOTTEST = 0.015, 0.05, 0.45, 3.5, 0.25
 # Of the largest pressure: q (PRESSURE + q); by q more: of the smallest film of a point contact, by its sides, and of friction
 PRESSURE, THINNEST, SLIDING = 0.35, 0.25, {"line": 0.2, "point": 0.7}
 HEATING = 2.0  # of the share of the film: of the rises of temperature
-WARMED = 1.7  # of the rise by the heat of the oil before
+WARMED = 2.0  # of the rise by the heat of the oil before
 # Of the change of the film at the sides, for every number of a passage: asperities and dents with sides at 1 b err by 0.01 to
 # 0.40 of it against 2.5 b, with temperatures by up to 0.50, exits that the grid does not resolve by more (decision 4)
 SIDES = 0.5

@@ -15,25 +15,28 @@ def peak(field):
     return np.unravel_index(int(np.argmax(field)), np.shape(field))
 
 
-def unresolved_peak(P, largest=None):
-    """(height over the largest, node) of the highest peak of P (n,) that makes the largest pressure unknown; height 0 without
-    one.
-
-    It is the largest peak itself if it is narrow, or a lower one so sharp that it may exceed it on finer grids. The front of a
-    frozen film that ends in a free edge is such a peak: it grows with the inverse square root of the cell, as does any number
-    that depends on it. largest: over more moments than this one; lower peaks then count only if they are narrow (otherwise the
-    largest peak a moment ago would be its own rival).
-    """
-    sharp, largest = (SHARP, P.max()) if largest is None else (NARROW, largest)
-    top = np.flatnonzero((P[2:-2] > P[1:-3]) & (P[2:-2] >= P[3:-1])) + 2
-    height, left = P[top] / largest, 0.5 * (P[top - 2] + P[top + 2]) / P[top]
-    unknown = np.where(height >= 1.0, left < NARROW, (left < sharp) & (height * (1 + GROWS * (1 - left)) > 1))
-    return max(zip(height[unknown].tolist(), top[unknown].tolist()), default=(0.0, 0))
-
-
 def sharpest(p, largest=None):
-    """The :func:`unresolved_peak` of a pressure (nx+1, ny+1), on the row through its maximum."""
-    return unresolved_peak(p[:, peak(p)[1]], largest)
+    """(height over the largest, place (i, j)) of the highest peak along x of a pressure (nx+1, ny+1) that makes the largest
+    pressure unknown; height 0 without one.
+
+    It is the largest peak itself if it is narrow, or a lower one, on any row, so sharp that it may exceed it on finer grids:
+    beside the axis of a circle a thin ridge does. The front of a frozen film that ends in a free edge is such a peak: it grows
+    with the inverse square root of the cell, as does any number that depends on it. largest: over more moments than this one;
+    lower peaks then count only if they are narrow (otherwise the largest peak a moment ago would be its own rival).
+    """
+    sharp, largest = (SHARP, p.max()) if largest is None else (NARROW, largest)
+    i, j = np.nonzero(_tops(p) & (p[2:-2] >= LEAST * largest))
+    height, left = p[i + 2, j] / largest, 0.5 * (p[i, j] + p[i + 4, j]) / p[i + 2, j]
+    unknown = np.where(height >= 1.0, left < NARROW, (left < sharp) & (height * (1 + GROWS * (1 - left)) > 1))
+    found = max(zip(height[unknown].tolist(), i[unknown].tolist(), (-j[unknown]).tolist()), default=(0.0, -2, 0))
+    return found[0], (found[1] + 2, -found[2])
+
+
+def _tops(p):
+    """Whether a pressure has a peak along x, no lower than the rows beside it; of all but the two nodes at each end."""
+    beside = np.pad(p[2:-2], ((0, 0), (1, 1)), mode="edge")
+    tops = (p[2:-2] > p[1:-3]) & (p[2:-2] >= p[3:-1])
+    return tops & (p[2:-2] >= np.maximum(beside[:, :-2], beside[:, 2:]))
 
 
 def ripple(field):

@@ -40,7 +40,7 @@ def pressure_reading(shot, a):
     p = shot.fields["pressure"]
     i, j = peak(p)
     height, at = sharpest(p)
-    cell, why = float(shot.x[1] - shot.x[0]), doubt(shot.x, height, at, a)
+    cell, why = float(shot.x[1] - shot.x[0]), doubt(shot.x, height, at[0], a)
     return GridReading(float(p[i, j]), _between(p, i, j), _place(shot, i), cell, why)
 
 
@@ -62,7 +62,7 @@ def is_at_exit(x, a):
 def pressure_doubt(reader, entries, largest, a):
     """The :func:`doubt` about these entries, from the worst peak of all; largest: their largest pressure, Pa."""
     height, at = max(_sharpest_of(reader, n, largest) for n in entries)
-    return doubt(reader.x, height, at, a)
+    return doubt(reader.x, height, at[0], a)
 
 
 def _sharpest_of(reader, n, largest):

@@ -6,7 +6,7 @@ import numpy as np
 
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.march.accuracy import readings
-from tehl_taichi.march.accuracy.peaks import peak, ripple, sharpest
+from tehl_taichi.march.accuracy.peaks import ripple, sharpest
 from tehl_taichi.scene import refinement
 from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.scene.scales import Scales
@@ -61,7 +61,7 @@ def unresolved(store, summary):
     known = summary.get("transient", {}).get("error", {}).get("p_max_Pa") is not None
     for n in dict.fromkeys((0,) if known else (0, int(np.argmax(store.scalar("p_max_Pa"))))):
         p = store.fields(n, ("pressure",))["pressure"]
-        height, i = sharpest(p)
+        height, (i, _) = sharpest(p)
         if height >= 1.0:  # lower peaks show in the error bars, which are unknown then
             at_exit, remedy = readings.is_at_exit(store.x[i], Scales.of(store.scene).a), _remedy(store, i)
             yield with_data(readings.EXIT * at_exit + _where(store, n, p, i) + _because(store, i, remedy), remedy,
@@ -74,8 +74,8 @@ def first_unresolved(store, summary):
     later = [n for n in range(1, len(store)) if part and store.feature_x(n) > (part["to_x_a"] + 1e-9) * a]
     if later:
         p = store.fields(later[0], ("pressure",))["pressure"]
-        i, row = sharpest(p, store.scalar("p_max_Pa").max())[1], peak(p)[1]
-        if i and not readings.is_at_exit(store.x[i], a):
+        height, (i, row) = sharpest(p, store.scalar("p_max_Pa").max())
+        if height and not readings.is_at_exit(store.x[i], a):
             at = f"X = {store.x[i] / a:.2f}, y = {store.y[row] * 1e6:.0f} um"
             grid = refinement.finer_grid_option(store.scene)
             yield with_data(f"the resolved part of the passage ends before the {_moment(store, later[0])}: its pressure peak "
