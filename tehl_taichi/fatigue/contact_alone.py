@@ -8,12 +8,14 @@ from tehl_taichi.fatigue import depth_profile, findley, von_mises
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.stress.steady_sweep import SteadySweep
 
+FIRST = 32  # rows of a surface: on finer grids every second, third ... row first, then those beside the worst
+
 
 @dataclass(frozen=True)
 class ContactAlone:
     """Numbers of one body without features ("Fi_max", "findley_stress_max_Pa", "depth_m", "surface_Fi_max" of its surface, and
     whether the shear of the film and residual stress count, "shear_counted" and "residual_counted"), and Findley stress f (Pa)
-    at the surface and at the depths of :func:`tehl_taichi.fatigue.depth_profile.ladder`.
+    on the middle row, at the surface and at the depths of :func:`tehl_taichi.fatigue.depth_profile.ladder`.
     """
 
     summary: dict
@@ -21,32 +23,57 @@ class ContactAlone:
 
 
 def search(scene, reader, surface):
-    """The :class:`ContactAlone` of the body of `surface`, for the middle row of the contact and its whole passage.
+    """The :class:`ContactAlone` of the body of `surface`: rows of its surface, below it the middle and the worst one.
 
     scene: its constants matter, its moments and features do not; reader: of a run, whose entry 0 is the steady start. Depths
-    below the surface are included unless fatigue.depths is empty.
+    below the surface are included unless fatigue.depths is empty. A line contact has one row.
     """
     sweep = SteadySweep(scene, reader, surface)
-    history = _histories(sweep, [0.0])[0]
-    strength = sweep.strength
-    local = strength.at(0.0)
-    surface_f, _ = findley.search(history, local.kappa, criterion=local.criterion)
-    f, worst, depth = surface_f, float(surface_f[0]), 0.0
-    peaks = [top := von_mises.peak(history, lambda n: (0.0, 0.0, 0.0))]
+    strength, local = sweep.strength, sweep.strength.at(0.0)
+    rows, histories, at_surface = _at_surface(sweep, local)
+    top = int(np.argmax(at_surface))
+    f, worst, depth = at_surface[rows.index(sweep.middle) :][:1], float(at_surface[top]), 0.0
+    peaks = [most := von_mises.peak(histories, lambda n: (0.0, 0.0, sweep.reader.y[rows[n]]))]
     if scene.fatigue.depths:
-        under = depth_profile.ladder(sweep)
-        profile = depth_profile.of_row(sweep, under, _histories(sweep, under), sweep.middle)
-        f = np.append(surface_f, profile.f[:, 0])
-        peaks.append(profile.mises)
-        point = profile.worst
+        profiles = _profiles(sweep, list(dict.fromkeys([sweep.middle, rows[top]])))
+        f = np.append(f, profiles[0].f[:, 0])
+        peaks += [profile.mises for profile in profiles]
+        point = max((profile.worst for profile in profiles), key=lambda one: (one.compared, one.depth))
         if (point.compared, point.depth) > (worst, 0.0):
             worst, depth, local = point.f, point.depth, point.local
     return ContactAlone({"Fi_max": worst / local.endurance, "findley_stress_max_Pa": worst, "depth_m": depth,
-                         "surface_Fi_max": float(surface_f[0]) / strength.surface_limit,
+                         "surface_Fi_max": float(at_surface[top]) / strength.surface_limit,
                          "shear_counted": scene.fatigue.shear, "residual_counted": strength.has_residual,
-                         "von_mises": von_mises.summary(peaks, top.value, surface, strength)}, f)
+                         "von_mises": von_mises.summary(peaks, most.value, surface, strength)}, f)
 
 
-def _histories(sweep, depths):
-    """Histories (depths, 1, moments, 6), Pa; the row of a line contact is treated as an endless line."""
-    return histories_of(sweep, depths, [(sweep.middle, sweep.line)])[0]
+def _at_surface(sweep, local):
+    """(rows, histories (rows, moments, 6) in Pa, Findley stress (rows,) in Pa) of the surface: of some FIRST rows, and of those
+    beside the worst one. A line contact has one row.
+    """
+    every = max(1, sweep.reader.y.size // FIRST)
+    rows = [sweep.middle] if sweep.line else [row for row in range(sweep.reader.y.size) if (row - sweep.middle) % every == 0]
+    histories, f = _searched(sweep, local, rows)
+    top = rows[int(np.argmax(f))]
+    beside = [row for row in range(top - every + 1, top + every) if row != top and 0 <= row < sweep.reader.y.size]
+    if beside and not sweep.line:
+        more, others = _searched(sweep, local, beside)
+        rows, histories, f = rows + beside, np.concatenate([histories, more]), np.append(f, others)
+    return rows, histories, f
+
+
+def _searched(sweep, local, rows):
+    """(histories (rows, moments, 6), Findley stress (rows,)), Pa, of these rows of the surface; local: their strength."""
+    histories = np.concatenate([found[0] for found in _histories(sweep, [0.0], rows)])
+    return histories, findley.search(histories, local.kappa, criterion=local.criterion)[0]
+
+
+def _profiles(sweep, rows):
+    """The :class:`tehl_taichi.fatigue.depth_profile.DepthProfile` under each of these rows."""
+    under = depth_profile.ladder(sweep)
+    return [depth_profile.of_row(sweep, under, found, row) for row, found in zip(rows, _histories(sweep, under, rows))]
+
+
+def _histories(sweep, depths, rows):
+    """Histories (depths, 1, moments, 6), Pa, of each of these rows; that of a line contact is treated as an endless line."""
+    return histories_of(sweep, depths, [(row, sweep.line) for row in rows])

@@ -1,10 +1,13 @@
 """The smooth contact alone: against Hertz, against passages in which nothing changes, its error bars, what is said of it."""
 
+import numpy as np
 import pytest
 from rolling import Dry, Rolling
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import assessment, contact_alone
+from tehl_taichi.fatigue import assessment, contact_alone, findley, von_mises
+from tehl_taichi.fatigue.stress.row_histories import histories_of
+from tehl_taichi.fatigue.stress.steady_sweep import SteadySweep
 from tehl_taichi.march.accuracy import contact_alone_bars
 from tehl_taichi.report import verdict
 from tehl_taichi.runs.summary import summary_rows
@@ -60,6 +63,47 @@ def test_the_feature_the_moments_and_the_listed_depths_have_no_part_in_it():
     none = scene.replace(**{"fatigue.depths": []})
     at_top = contact_alone.search(none, Rolling(none), none.surfaces[0]).summary
     assert (at_top["depth_m"], at_top["Fi_max"]) == (0.0, first["surface_Fi_max"])
+
+
+class Lobed(Dry):
+    """A dry circle with a lobe of shear beside its axis, 0.1 b wide, `at` b from it."""
+
+    at = 0.55
+
+    def fields(self, n, names):
+        found, b = super().fields(n, ("pressure", "traction_x_a", "traction_y_a")), self.y[-1] / 1.5
+        lobe = np.exp(-((self.x[:, None] / b) ** 2 + (self.y[None] / b - self.at) ** 2) / 0.01)
+        found["traction_x_a"] = 0.3 * self.p.max() * lobe
+        return {name: found[name] for name in names}
+
+
+@pytest.mark.parametrize("cells", [16, 32, 48])
+def test_the_worst_row_of_a_circle_is_found(cells):
+    """As all rows, one by one; on more than 32 of them every second or third one is searched first. And below it."""
+    scene = tehl.scene("ball-on-disc").replace(**{"thermal.on": False})
+    reader, surface = Lobed(scene, cells), scene.surfaces[0]
+    found = contact_alone.search(scene, reader, surface)
+    sweep = SteadySweep(scene, reader, surface)
+    histories = [histories_of(sweep, [0.0], [(row, False)])[0][0] for row in range(reader.y.size)]
+    each = [findley.search(history, scene.fatigue.kappa)[0][0] for history in histories]
+    worst = int(np.argmax(each))
+    assert abs(reader.y[worst] / reader.y[-1] * 1.5 - Lobed.at) < 0.1 and max(each) > 2 * each[0]
+    assert found.summary["surface_Fi_max"] == pytest.approx(max(each) / scene.fatigue.endurance, rel=1e-6)
+    assert found.f[0] == pytest.approx(each[0], rel=1e-6)
+    assert found.summary["Fi_max"] >= found.summary["surface_Fi_max"]
+    mises = max(von_mises.largest(history)[0] for history in histories)
+    assert found.summary["von_mises"]["surface_max_Pa"] == pytest.approx(mises, rel=1e-3)
+
+
+def test_indices_near_a_peak_that_the_grid_does_not_resolve_are_unknown():
+    """mtm: its surface, and what lies a cell below it; not the index at a third of the half-width."""
+    scene = tehl.scene("mtm").replace(**{"grid.nx": 128, "grid.ny": 64})
+    first = next(tehl.march(scene))
+    assert first.error["p_max_Pa"] is None
+    near = 2 * float(first.x[1] - first.x[0])
+    for found in contact_alone_bars.searches(scene, first).values():
+        assert found["error"]["surface_Fi_max"] is None and "pressure peak" in found["unknown"]["surface_Fi_max"]
+        assert (found["error"]["Fi_max"] is None) == (found["depth_m"] < near)
 
 
 @pytest.mark.slow

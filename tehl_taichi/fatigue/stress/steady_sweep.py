@@ -1,4 +1,4 @@
-"""Stress history of a point on the middle row of a smooth body that passes through the steady contact."""
+"""Stress histories of points of a smooth body that pass through the steady contact."""
 
 import numpy as np
 
@@ -25,8 +25,8 @@ class Steady:
 
 
 class SteadySweep(StressHistories):
-    """Histories of one material point on the middle row that moves through the steady fields, one cell per moment; `positions`:
-    its coordinates (m). scene, reader, surface: as for the base class.
+    """Histories of one material point on a row (`middle`: that through the centre) that moves through the steady fields, one
+    cell per moment; `positions`: its coordinates (m). scene, reader, surface: as for the base class.
     """
 
     block = 1  # one entry, which every moment reads

@@ -38,7 +38,7 @@ def test_a_bar_covers_the_error_and_little_more(error, count):
 
 def test_an_earlier_difference_counts_where_the_last_one_is_small_by_accident():
     assert estimated_error([1.0, 1.36, 1.36])[0] == pytest.approx(0.036)  # a tenth of 0.36
-    assert estimated_error([1.0, 1.0])[0] == pytest.approx(1e-3)  # two grids may agree by accident
+    assert estimated_error([1.0, 1.0])[0] == pytest.approx(2e-3)  # two grids may agree by accident
     assert estimated_error([1.0, 1.1])[0] == pytest.approx(0.15) and np.isnan(estimated_error([1.0])[0])
 
 
@@ -53,8 +53,8 @@ def test_two_grids_say_less_of_a_passage(place):
 
 def test_no_bar_is_narrower_than_what_the_iterations_may_have_left():
     """Grids that agree to 0.1 mK while rounds end at 50 mK."""
-    # two grids alone: a thousandth
-    assert bar([GridReading(100.0001), GridReading(100.0, settled=0.005)])[0] == pytest.approx(0.1)
+    # two grids alone: two thousandths
+    assert bar([GridReading(100.0001), GridReading(100.0, settled=0.005)])[0] == pytest.approx(0.2)
     same = [GridReading(100.0002), GridReading(100.0001), GridReading(100.0, settled=0.005)]
     assert bar(same)[0] == 0.005 and bar(same[:2] + [GridReading(100.0)])[0] < 3e-4
     expected = GridReading(120.0, settled=0.1 * scene("gear").thermal.tolerance)
@@ -135,7 +135,7 @@ def test_what_an_unknown_peak_sways_has_a_wide_bar():
     values = (97.91, 98.32, 98.28)
     assert bar([GridReading(value, swayed=True) for value in values])[0] == pytest.approx(3 * 0.41)
     assert bar([GridReading(value) for value in values])[0] < 0.1
-    assert bar([GridReading(values[1], swayed=True), GridReading(values[2], swayed=True)])[0] == pytest.approx(3 * 0.04)
+    assert bar([GridReading(values[1], swayed=True), GridReading(98.0, swayed=True)])[0] == pytest.approx(3 * 0.32)
 
 
 def test_parts_of_a_passage_are_the_same_on_every_grid():
