@@ -6,9 +6,10 @@ from tehl_taichi.pressure import influence
 
 
 def deflected(P, dx, dy, compliance, line, mirrored=True):
-    """Deflection (ny+1, nx+1) of the pressure P of that shape; line: its last row continues beyond the grid."""
+    """Deflection (ny+1, nx+1) of the pressure P of that shape; line: its last row continues beyond the grid, of a whole domain
+    the mean of the first and the last."""
     ny, nx = P.shape[0] - 1, P.shape[1] - 1
-    edge = P[-1] if line else 0 * P[-1]
+    edge = (P[-1] if mirrored else (P[0] + P[-1]) / 2) if line else 0 * P[-1]
     rest = P - edge
     whole = np.concatenate([rest[:0:-1], rest]) if mirrored else rest
     found = _convolved(whole, influence.rectangle(nx, len(whole) - 1, dx, dy, compliance).T)[-ny - 1 :] if ny else 0 * P

@@ -16,12 +16,11 @@ class Grids:
     """Places, spacings and blocks of all levels, the finest first; dimensionless.
 
     description: the grid of a scene; scales: its Hertz units; nx, ny: cells (ny = 0: one-dimensional); full: the domain begins
-    at -y_max, not at the plane of symmetry (the lower edge of a line contact is then a distant mirror); coarsest: cells along x
-    below which no coarser grid is made, in two dimensions.
+    at -y_max, not at the plane of symmetry; coarsest: cells along x below which no coarser grid is made, in two dimensions.
     """
 
     def __init__(self, description, scales, nx, ny, full=False, coarsest=COARSEST_2D):
-        self.scales, self.line, self.mirrored = scales, scales.line, scales.line or not full
+        self.scales, self.line, self.mirrored = scales, scales.line, not full
         self.nx, self.ny, y_max = nx, ny, description.y_max * scales.b / scales.a
         self.X = np.linspace(description.x_min, description.x_max, nx + 1)
         self.Y = np.linspace(-y_max if full else 0.0, y_max, ny + 1) if ny else np.zeros(1)

@@ -30,8 +30,8 @@ def strip(nx, dx):
 def matrix(nx, ny, dx, dy, compliance, line, mirrored=True):
     """Deflection of a small grid as a matrix (nodes, nodes), rows along x.
 
-    line: the pressure of the last row continues beyond it; mirrored: rows y < 0 mirror the others. The first column of the grid
-    has no pressure.
+    line: the pressure of the last row continues beyond it (of a whole grid, the mean of both outermost rows); mirrored: rows
+    y < 0 mirror the others. The first column of the grid has no pressure.
     """
     i, j = np.arange(nx + 1), np.arange(ny + 1)
     along = np.abs(i[:, None] - i)
@@ -41,8 +41,10 @@ def matrix(nx, ny, dx, dy, compliance, line, mirrored=True):
         K += cells[along[None, :, None, :], np.abs(j[:, None] - j)[:, None, :, None]]
         if mirrored:
             K[:, :, 1:] += cells[along[None, :, None, :], (j[:, None] + j[1:])[:, None, :, None]]
-    if line:  # the last row is a strip without end, the others differ from it
-        K[:, :, -1] = strip(nx, dx)[along] - K[:, :, :-1].sum(axis=2)
+    if line:  # the pressure beyond is a strip without end, the rows differ from it
+        rest = strip(nx, dx)[along] - K.sum(axis=2)
+        for row in [-1] if mirrored else [0, -1]:
+            K[:, :, row] += rest if mirrored else rest / 2
     K[..., 0] = 0.0
     return K.reshape((ny + 1) * (nx + 1), -1)
 

@@ -53,7 +53,7 @@ class Levels(Grids):
     def _unknown_nodes(self):
         """Mask (ny+1, nx+1): 1 where the pressure is unknown, else 0."""
         inside = np.zeros((self.ny + 1, self.nx + 1))
-        inside[0 if self.mirrored else 1 : int(self.G[0, fields.JN]), 1:-1] = 1.0
+        inside[0 if self.line or self.mirrored else 1 : int(self.G[0, fields.JN]), 1:-1] = 1.0
         return inside
 
     def _clear_level(self, l):

@@ -8,8 +8,8 @@ transforms of length N >= 2 ny, with GROUP waves in the lanes. A is the transfor
 of t(0 ... 2 ny - 1) for the mirror images (0 for a whole domain, A if the other end is also a mirror). Rows on a mirror count
 half.
 
-A line contact continues its outermost row for ever: this row is subtracted, and the response of a strip is added. Cosine
-transforms from running sums would lose digits: 1e-5 in single precision for 512 rows.
+A line contact continues its outermost row for ever (a whole domain the mean of both): it is subtracted, and the response of a
+strip is added. Cosine transforms from running sums would lose digits: 1e-5 in single precision for 512 rows.
 """
 
 import functools
@@ -90,7 +90,7 @@ class Symbols:
     """Symbols of one convolution: A, B (N//2+1, M+1), strip (M+1,).
 
     shape: its TransformSize; mirrors: whether the first and the last row lie on a mirror; endless: whether the outermost row
-    continues for ever.
+    continues for ever (of a whole domain the mean of both).
     """
 
     def __init__(self, shape, A, B, strip, mirrors, endless):
@@ -257,12 +257,21 @@ def buffer(C: ti.template(), w):
 
 
 @ti.func
+def beyond(Y: ti.template(), C: ti.template(), c, e, part):
+    """Real or imaginary parts (0, 1) of a group of waves of the pressure beyond the grid: of the outermost row, of a whole
+    domain of the mean of both, so that both of its sides are alike."""
+    last, first = Y[0, e + C[c, NY] * C[c, STEP] + part], Y[0, e + part]
+    share = ti.cast(0.5 * (1 - C[c, HALF_FIRST]), Y.dtype)
+    return last + share * (first - last)
+
+
+@ti.func
 def load_waves(Y: ti.template(), C: ti.template(), c, e, a):
-    """Copy a group of waves from entry e of the spectra to the buffer at a: an endless outermost row is subtracted, the rest of
-    the buffer is zero."""
+    """Copy a group of waves from entry e of the spectra to the buffer at a: an endless pressure :func:`beyond` is subtracted,
+    the rest of the buffer is zero."""
     ny, step = C[c, NY], C[c, STEP]
     rest = ti.cast(C[c, ENDLESS], Y.dtype)
-    lr, li = rest * Y[0, e + ny * step], rest * Y[0, e + ny * step + 1]
+    lr, li = rest * beyond(Y, C, c, e, 0), rest * beyond(Y, C, c, e, 1)
     for j in range(ny + 1):
         Y[0, a + 2 * j], Y[0, a + 2 * j + 1] = Y[0, e + j * step] - lr, Y[0, e + j * step + 1] - li
     clear(Y, a + 2 * (ny + 1), a + 2 * C[c, N])
@@ -288,9 +297,9 @@ def multiply(Y: ti.template(), z, C: ti.template(), c, g):
 
 @ti.func
 def store_waves(Y: ti.template(), z, C: ti.template(), c, e, g):
-    """Copy a group of waves from the buffer back to the spectra, plus the response of the strip to the outermost row."""
+    """Copy a group of waves from the buffer back to the spectra, plus the response of the strip to the pressure beyond."""
     ny, step, strip = C[c, NY], C[c, STEP], Y[0, C[c, STRIP] + g]
-    lr, li = strip * Y[0, e + ny * step], strip * Y[0, e + ny * step + 1]
+    lr, li = strip * beyond(Y, C, c, e, 0), strip * beyond(Y, C, c, e, 1)
     for j in range(ny + 1):
         Y[0, e + j * step], Y[0, e + j * step + 1] = Y[0, z + 2 * j] + lr, Y[0, z + 2 * j + 1] + li
 

@@ -32,7 +32,8 @@ def passage(file, cells, arch="cpu", **changes):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("changes", ({"thermal.on": False}, {}), ids=("isothermal", "with temperatures"))
+@pytest.mark.parametrize("changes", ({"thermal.on": False}, {}, {"thermal.on": False, "feature.y": 2e-4}),
+                         ids=("isothermal", "with temperatures", "beside the axis"))
 def test_a_passage_by_cells_is_that_by_rows(tmp_path, changes):
     rows, cells = (passage(tmp_path / f"{cells}.npz", cells, **changes) for cells in "01")
     assert rows["loaded"] == 0 < cells["loaded"]

@@ -10,7 +10,8 @@ from tehl_taichi.scene.scales import Scales
 ACCURACY = {"f32": 1e-6, "f64": 1e-14}  # of the largest value; transforms by FFTW in single precision: 3e-7
 # scene, cells, whole domain; 112 and 28 have a factor 7 and need longer transforms
 CASES = {"line": ("gear", 64, 16, False), "line, odd lengths": ("gear", 112, 28, False),
-         "profile": ("smooth-line", 128, 0, False), "circle": ("ball-on-disc", 64, 32, False),
+         "whole line": ("gear", 64, 32, True), "profile": ("smooth-line", 128, 0, False),
+         "circle": ("ball-on-disc", 64, 32, False),
          "whole circle": ("ball-on-disc", 32, 32, True),
          "ellipse": ("", 112, 28, False), "whole ellipse": ("", 48, 20, True)}
 

@@ -19,7 +19,7 @@ class Convolution:
     """Places of one convolution.
 
     M, N: lengths along x and y. x, y: first entries of the rows and of the waves. symbol, strip, split: first entries of their
-    tables. last: first entry of the waves of the outermost row. half_first, half_last: rows on a mirror, which count half, or
+    tables. last: first entry of the waves of the pressure beyond. half_first, half_last: rows on a mirror, which count half, or
     -1. along, across, back: passes of the transforms.
     """
 
@@ -50,7 +50,7 @@ class Convolution:
 class Convolutions:
     """Several convolutions that run together; symbols: of each convolution.
 
-    Fields: X (rows), Y (waves), T (twiddle factors), A (symbols), E (waves of the outermost row). Further attributes are the
+    Fields: X (rows), Y (waves), T (twiddle factors), A (symbols), E (waves of the pressure beyond). Further attributes are the
     Jobs of the loops.
     """
 
@@ -134,9 +134,18 @@ def wave(K: ti.template(), c: ti.template(), j, k):
 
 
 @ti.func
+def beyond(K: ti.template(), c: ti.template(), k):
+    """Wave k of the pressure beyond the grid: of the outermost row, of a whole domain of the mean of both."""
+    last = wave(K, c, c.ny, k)
+    if ti.static(c.half_first != 0):  # the first row lies on no mirror
+        last = ti.cast(0.5, K.X.dtype) * (last + wave(K, c, 0, k))
+    return last
+
+
+@ti.func
 def spread(K: ti.template()):
-    """Write the waves of all rows to Y: an endless outermost row is subtracted, rows on a mirror count half, further entries
-    are zero."""
+    """Write the waves of all rows to Y: an endless pressure :func:`beyond` is subtracted, rows on a mirror count half, further
+    entries are zero."""
     for t in range(K.spread.total):
         for c, first, end in ti.static(K.spread.parts):
             if first <= t < end:
@@ -144,10 +153,13 @@ def spread(K: ti.template()):
                 z = ti.Vector([ti.cast(0.0, K.X.dtype), ti.cast(0.0, K.X.dtype)])
                 if j <= c.ny:
                     z = wave(K, c, j, k)
-                    if j == c.ny:
-                        K.E[0, c.last + k] = z
                     if ti.static(c.endless):
-                        z -= wave(K, c, c.ny, k)
+                        rest = beyond(K, c, k)
+                        if j == c.ny:
+                            K.E[0, c.last + k] = rest
+                        z -= rest
+                    elif j == c.ny:
+                        K.E[0, c.last + k] = z
                     if j == c.half_first or j == c.half_last:
                         z = ti.cast(0.5, K.X.dtype) * z
                 K.Y[0, c.y + t - first] = z
@@ -168,7 +180,7 @@ def multiply(K: ti.template()):
 
 @ti.func
 def answer(K: ti.template(), c: ti.template(), j, k):
-    """Wave k of row j, with the response of the strip to the outermost row."""
+    """Wave k of row j, with the response of the strip to the pressure beyond."""
     return K.Y[0, c.y + j * c.waves + k] + K.A[0, c.strip + k][0] * K.E[0, c.last + k]
 
 
