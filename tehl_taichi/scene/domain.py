@@ -25,7 +25,7 @@ SIDES = 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 15.0, 20.0  # b
 # at 0.5 GPa, 20 m/s, 60 deg C, SRR -0.5: the film is 12 % too thick with 2.5, 2.7 % with 8, 0.8 % with 18)
 GAPS, HEATED = 8.0, 20.0
 # What an end costs the film: a part of (gap there/so many films)^(-3/2), and of a passage's numbers
-INLET, SIDE, LEFT, PASSAGE = 1.4, 0.7, {"line": 0.06, "point": 0.12}, 3.0
+INLET, SIDE, LEFT, PASSAGE = 1.4, 0.7, {"line": 0.06, "point": 0.3}, 3.0
 LITTLE = 2e-3
 ENDS = "x_min", "x_max", "y_max"
 
