@@ -32,7 +32,7 @@ def search(scene, reader, surface):
     strength, local = sweep.strength, sweep.strength.at(0.0)
     rows, histories, at_surface = _at_surface(sweep, local)
     top = int(np.argmax(at_surface))
-    f, worst, depth = at_surface[rows.index(sweep.middle) :][:1], float(at_surface[top]), 0.0
+    f, worst, depth = at_surface[[rows.index(sweep.middle)]], float(at_surface[top]), 0.0
     peaks = [most := von_mises.peak(histories, lambda n: (0.0, 0.0, sweep.reader.y[rows[n]]))]
     if scene.fatigue.depths:
         profiles = _profiles(sweep, list(dict.fromkeys([sweep.middle, rows[top]])))
@@ -51,12 +51,13 @@ def _at_surface(sweep, local):
     """(rows, histories (rows, moments, 6) in Pa, Findley stress (rows,) in Pa) of the surface: of some FIRST rows, and of those
     beside the worst one. A line contact has one row.
     """
-    every = max(1, sweep.reader.y.size // FIRST)
-    rows = [sweep.middle] if sweep.line else [row for row in range(sweep.reader.y.size) if (row - sweep.middle) % every == 0]
+    all_rows = [sweep.middle] if sweep.line else range(sweep.reader.y.size)
+    every = max(1, len(all_rows) // FIRST)
+    rows = [row for row in all_rows if (row - sweep.middle) % every == 0]
     histories, f = _searched(sweep, local, rows)
     top = rows[int(np.argmax(f))]
-    beside = [row for row in range(top - every + 1, top + every) if row != top and 0 <= row < sweep.reader.y.size]
-    if beside and not sweep.line:
+    beside = [row for row in all_rows if 0 < abs(row - top) < every]
+    if beside:
         more, others = _searched(sweep, local, beside)
         rows, histories, f = rows + beside, np.concatenate([histories, more]), np.append(f, others)
     return rows, histories, f

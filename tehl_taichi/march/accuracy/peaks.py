@@ -26,10 +26,11 @@ def sharpest(p, largest=None):
     """
     sharp, largest = (SHARP, p.max()) if largest is None else (NARROW, largest)
     i, j = np.nonzero(_tops(p) & (p[2:-2] >= LEAST * largest))
-    height, left = p[i + 2, j] / largest, 0.5 * (p[i, j] + p[i + 4, j]) / p[i + 2, j]
+    i += 2
+    height, left = p[i, j] / largest, 0.5 * (p[i - 2, j] + p[i + 2, j]) / p[i, j]
     unknown = np.where(height >= 1.0, left < NARROW, (left < sharp) & (height * (1 + GROWS * (1 - left)) > 1))
-    found = max(zip(height[unknown].tolist(), i[unknown].tolist(), (-j[unknown]).tolist()), default=(0.0, -2, 0))
-    return found[0], (found[1] + 2, -found[2])
+    found = max(zip(height[unknown].tolist(), i[unknown].tolist(), (-j[unknown]).tolist()), default=(0.0, 0, 0))
+    return found[0], (found[1], -found[2])
 
 
 def _tops(p):

@@ -153,13 +153,10 @@ def spread(K: ti.template()):
                 z = ti.Vector([ti.cast(0.0, K.X.dtype), ti.cast(0.0, K.X.dtype)])
                 if j <= c.ny:
                     z = wave(K, c, j, k)
+                    if j == c.ny:
+                        K.E[0, c.last + k] = beyond(K, c, k)
                     if ti.static(c.endless):
-                        rest = beyond(K, c, k)
-                        if j == c.ny:
-                            K.E[0, c.last + k] = rest
-                        z -= rest
-                    elif j == c.ny:
-                        K.E[0, c.last + k] = z
+                        z -= beyond(K, c, k)
                     if j == c.half_first or j == c.half_last:
                         z = ti.cast(0.5, K.X.dtype) * z
                 K.Y[0, c.y + t - first] = z
