@@ -16,11 +16,15 @@ from tehl_taichi.values.coded_text import grid_option
 from tehl_taichi.values.coded_warning import with_data
 from tehl_taichi.values.quantity import AUTO
 
-OUTLET, LINE_SIDE = 1.5, 1.0  # a; b, where nothing depends on it
+LINE_SIDE = 1.0  # b, where nothing depends on it
 # Inlets (a) that auto takes: with the usual outlet, and columns in multiples of 64, X = 0 is a node of every grid of a start
 # but the last one's
 INLETS = 2.5, 4.5, 6.5, 10.5, 14.5, 20.0
 SIDES = 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 15.0, 20.0  # b
+OUTLETS = 1.5, 2.0, 2.5, 3.5, 5.0, 7.0, 10.0  # a
+# Gap over the film of the formula at the outlet of a line, at least: films of M 0.3 to 4, L 5 to 25 rupture where it is 1.12 to
+# 1.18, those of point contacts before 1 a
+RUPTURED = 1.2
 # Gap over film at both, at least. With temperatures the oil that flows back heats what comes in beyond the border (smooth line
 # at 0.5 GPa, 20 m/s, 60 deg C, SRR -0.5: the film is 12 % too thick with 2.5, 2.7 % with 8, 0.8 % with 18)
 GAPS, HEATED = 8.0, 20.0
@@ -37,10 +41,10 @@ def with_chosen_ends(scene):
     if not automatic:
         return grid
     found = {"x_min": lambda s, film: -_first(INLETS, lambda X: inlet_gap(s, X) / film, _least(scene)),
-             "x_max": lambda s, film: OUTLET,
+             "x_max": _outlet,
              "y_max": lambda s, film: LINE_SIDE if s.line else _first(SIDES, lambda Y: side_gap(s, Y) / film, GAPS)}
     s = Scales.of(scene)
-    film = heated_film(scene) / s.h if {"x_min", "y_max"} & set(automatic) else 1.0
+    film = heated_film(scene) / s.h
     return replace(grid, **{key: AutomaticValue(found[key](s, film)) for key in automatic})
 
 
@@ -51,6 +55,10 @@ def with_auto(values):
 
 def _auto(value):
     return value == AUTO or isinstance(value, AutomaticValue)
+
+
+def _outlet(s, film):
+    return _first(OUTLETS, lambda X: inlet_gap(s, X) / film, RUPTURED) if s.line else OUTLETS[0]
 
 
 def _least(scene):
@@ -107,21 +115,31 @@ def remedy(scene, film):
     return inlet if s.line else {**inlet, "y_max": _first(SIDES, lambda Y: side_gap(s, Y) / film, max(GAPS, SIDE * power))}
 
 
+def outlet(scene):
+    """End of the domain (a) behind which the film of a line has ruptured, by the film formula; of points the usual one."""
+    s = Scales.of(scene)
+    return _outlet(s, heated_film(scene) / s.h)
+
+
 def moved(scene):
-    """Sentence about an inlet that "auto" moved away from its usual place; "" otherwise."""
+    """Sentence about ends along x that "auto" moved away from their usual places; "" otherwise."""
     g = scene.grid
-    if not (isinstance(g.x_min, AutomaticValue) and g.x_min < -INLETS[0]):
+    near, far = (usual if isinstance(end, AutomaticValue) else float(end)
+                 for end, usual in ((g.x_min, -INLETS[0]), (g.x_max, OUTLETS[0])))
+    if near <= g.x_min and far >= g.x_max:
         return ""
     per_a = g.nx / (g.x_max - g.x_min)
-    as_fine = math.ceil(g.nx * (g.x_max - g.x_min) / (g.x_max + INLETS[0]) / 16 - 1e-9) * 16
+    as_fine = math.ceil(g.nx * (g.x_max - g.x_min) / (far - near) / 16 - 1e-9) * 16
     grid = grid_option(scene, as_fine, g.ny)
-    return with_data(f"thick film: the domain begins at {-g.x_min:g} a (grid.x_min = \"auto\"), its {g.nx} columns give "
-                     f"{per_a:.3g} per half-width; {grid} makes them as fine as for 2.5 a", grid, x_min_a=float(g.x_min))
+    return with_data(f"thick film: the domain reaches from {g.x_min:g} to {g.x_max:g} a (\"auto\"), its {g.nx} columns give "
+                     f"{per_a:.3g} per half-width; {grid} makes them as fine as from {near:g} to {far:g} a", grid,
+                     x_min_a=float(g.x_min), x_max_a=float(g.x_max))
 
 
-def same_cells(scene, x_min=None, y_max=None):
+def same_cells(scene, **ends):
     """Grid Option that keeps the size of the cells on a domain with other ends."""
     g = scene.grid
-    nx = math.ceil(g.nx * (g.x_max - (x_min or g.x_min)) / (g.x_max - g.x_min) / 16 - 1e-9) * 16
-    ny = math.ceil(g.ny * (y_max or g.y_max) / g.y_max / 4 - 1e-9) * 4
+    x_min, x_max, y_max = (ends.get(key, getattr(g, key)) for key in ENDS)
+    nx = math.ceil(g.nx * (x_max - x_min) / (g.x_max - g.x_min) / 16 - 1e-9) * 16
+    ny = math.ceil(g.ny * y_max / g.y_max / 4 - 1e-9) * 4
     return grid_option(scene, nx, ny)

@@ -30,6 +30,9 @@ GRUBIN, LONG = 0.73, 0.15
 STIFF, FLAT, STEEP, HOT, HOTTEST = 0.015, 0.05, 0.45, 3.5, 0.25
 # Of the largest pressure: q (PRESSURE + q); by q more: of the smallest film of a point contact, by its sides, and of friction
 PRESSURE, THINNEST, SLIDING = 0.35, 0.25, {"line": 0.2, "point": 0.7}
+# Of the slope at the outlet, p_max per a: lines of M 0.3 to 2, L 5 to 25 ending at 1.5 to 2.5 a have at most 0.21 in the film,
+# 0.33 in the largest pressure, 0.56 in friction; Newtonian oil with a spike there 2.1 and 6.9 (docs/decisions/02-inlet.md)
+CUT = {"film": 0.22, "thinnest": 0.22, "pressure": 2.2, "friction": 8.0}
 HEATING = 2.0  # of the share of the film: of the rises of temperature
 WARMED = 2.0  # of the rise by the heat of the oil before
 # Of the change of the film at the sides, for every number of a passage: asperities and dents with sides at 1 b err by 0.01 to
@@ -54,6 +57,7 @@ class DomainError:
     warmed_b: float = 0.0
     gap: float = 0.0
     lost: float = 0.0
+    cut: float = 0.0
     sides: float = 0.0
 
     @classmethod
@@ -63,6 +67,10 @@ class DomainError:
 
     def values(self):
         return asdict(self)
+
+    def cut_off(self, cut):
+        """DomainError with that of an outlet where the pressure ends with the slope `cut`."""
+        return replace(self, cut=cut, **{name: getattr(self, name) + part * cut for name, part in CUT.items()})
 
     def of_passage(self, scene, reader):
         """DomainError of a passage from that of its steady start; reader: see :func:`side_change`."""
@@ -89,6 +97,12 @@ class DomainError:
 
 def domain_error(solver):
     """DomainError of the steady film in the table."""
+    P = solver.levels.get(fields.P)
+    return _by_inlet(solver).cut_off(float(P[:, -2].max() / (P.max() * solver.levels.dx)))
+
+
+def _by_inlet(solver):
+    """DomainError by the oil before the domain, and beside a point contact."""
     v, inlet = solver.levels, Inlet(solver.levels)
     H = v.get(fields.H)
     gap = float(H[v.middle, 0] / np.interp(0.0, v.X, H[v.middle]))

@@ -2,7 +2,7 @@
 
 import math
 
-from tehl_taichi.march.accuracy.domain_error import SIDES
+from tehl_taichi.march.accuracy.domain_error import CUT, SIDES
 from tehl_taichi.scene import domain
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import Option
@@ -17,11 +17,31 @@ def short(store, summary):
     parts = steady.get("error_parts", {}).get("h_c_m")
     if not parts or "inlet_gap" not in steady or g.inlet == "starved":
         return
-    part, grid = parts["domain"] / steady["h_c_m"], (parts["grid"] or 0.0) / steady["h_c_m"]
+    part, grid = parts["domain"] / steady["h_c_m"] - _by_outlet(steady), (parts["grid"] or 0.0) / steady["h_c_m"]
     if part > MUCH or part > max(grid, SOME) and not summary.get("domain", {}).get("auto"):
         option = _farther(store.scene, steady)
         yield with_data(f"the domain begins at {-g.x_min:g} a, where the gap is {steady['inlet_gap']:.2g} times the film; the "
                         f"oil before it may change the film by {part:.1%}{option}", option, part=part)
+
+
+def cut_off(store, summary):
+    """Warning about a film that ruptures behind the end of the domain."""
+    scene, part = store.scene, _by_outlet(summary.get("steady", {}))
+    if part > SOME:
+        option = _with_ends(scene, {"x_max": end} if (end := _behind(scene)) else {})
+        yield with_data(f"the film ruptures behind the end of the domain (grid.x_max = {scene.grid.x_max:g} a), which may "
+                        f"change it by {part:.1%}{option}", option, part=part)
+
+
+def _by_outlet(steady):
+    """Part of the film that an outlet before the rupture may change."""
+    return CUT["film"] * steady.get("outlet_slope", 0.0)
+
+
+def _behind(scene):
+    """End of the domain (a) behind the rupture; None if there is none."""
+    present = scene.grid.x_max
+    return next((end for end in domain.OUTLETS if end > present and end >= domain.outlet(scene)), None)
 
 
 def starved(store, summary):
@@ -39,9 +59,7 @@ def near_sides(store, summary):
         return
     # the change falls with the square of the distance (1.5 um asperity of the gear: 3.2, 0.8, 0.1 % at 0.5, 1, 3 b)
     y_max = math.ceil(2 * g.y_max * math.sqrt(SIDES * change / MUCH)) / 2
-    grid = domain.same_cells(store.scene, y_max=y_max)
-    side = f"grid.y_max={y_max:g}"
-    option = Option(f"; --set {side} {grid} (same cells)", f"; {side} and {grid.words} (same cells)")
+    option = _with_ends(store.scene, {"y_max": y_max})
     yield with_data(f"the features change the film at the sides of the domain (grid.y_max = {g.y_max:g} b) by {change:.1%}; "
                     f"the sides may change the numbers of the passage by {SIDES * change:.1%}{option}", option,
                     part=SIDES * change)
@@ -49,11 +67,14 @@ def near_sides(store, summary):
 
 def _farther(scene, steady):
     """Options of a sufficiently large domain, with cells of the present size."""
-    s, g = Scales.of(scene), scene.grid
-    found = domain.remedy(scene, steady["h_c_m"] / s.h)
-    farther = {key: end for key, end in found.items() if abs(end) > abs(getattr(g, key)) * (1 + 1e-9)}
-    if not farther:
+    found = domain.remedy(scene, steady["h_c_m"] / Scales.of(scene).h)
+    return _with_ends(scene, {key: end for key, end in found.items() if abs(end) > abs(getattr(scene.grid, key)) * (1 + 1e-9)})
+
+
+def _with_ends(scene, ends):
+    """Options of a domain with these ends and cells of the present size; "" for none."""
+    if not ends:
         return ""
-    sets, grid = [f"grid.{key}={end:g}" for key, end in farther.items()], domain.same_cells(scene, **farther)
+    sets, grid = [f"grid.{key}={end:g}" for key, end in ends.items()], domain.same_cells(scene, **ends)
     return Option(f"; {' '.join(f'--set {one}' for one in sets)} {grid} (same cells)",
                   f"; {' and '.join([*sets, grid.words])} (same cells)")

@@ -218,7 +218,8 @@ def worst_below(store, summary):
 
 
 # functions of (store, summary) that give their sentences, with the code of these
-CHECKS = {domain_warnings.short: "domain", domain_warnings.near_sides: "sides", domain_warnings.starved: "starved",
+CHECKS = {domain_warnings.short: "domain", domain_warnings.cut_off: "outlet", domain_warnings.near_sides: "sides",
+          domain_warnings.starved: "starved",
           worst_below: "below", rim_warnings.rims: "rim", yielding: "yield", running_in: "run-in", **film_warnings.CHECKS,
           beyond_measured: "measured", held_temperatures: "held", unknown_errors: "unknown", crowded: "crowded",
           zoom_ended: "zoom"}

@@ -136,12 +136,15 @@ def _steady(store, extra):
     out["film_formula"], out["film_formula_spread"] = formula_words(store.scene), spread(store.scene)
     out["error"], out["error_parts"] = extra["steady_error"], extra.get("steady_parts", {})
     reasons = {"unknown": extra.get("steady_unknown", {}), "unknown_codes": extra.get("steady_unknown_codes", {})}
-    return {**out, **unknown_of(reasons_of(reasons)), **_before(extra.get("steady_domain", {}))}
+    return {**out, **unknown_of(reasons_of(reasons)), **_ends(extra.get("steady_domain", {}))}
 
 
-def _before(known):
-    """Numbers of the inlet: gap over film there, and the film reduction by a border without pressure."""
-    return {"inlet_gap": known["gap"], "inlet_lost": known["lost"]} if known else {}
+def _ends(known):
+    """Numbers of the ends along x: gap over film at the inlet, the film reduction by a border without pressure there, and the
+    slope of the pressure at an outlet before the rupture of the film (p_max per a).
+    """
+    slope = {"outlet_slope": known["cut"]} if known.get("cut") else {}
+    return {"inlet_gap": known["gap"], "inlet_lost": known["lost"], **slope} if known else {}
 
 
 def _roughness(scene, steady):

@@ -296,20 +296,57 @@ def test_bars_hold_both_parts_and_are_none_where_either_leaves_nothing():
     assert passing == pytest.approx({"h_min_m": 3e-8, "Fi_max": 0.27})
 
 
+def rupturing(x_max, M=0.5, L=10.0):
+    """A thick film that ruptures at 1.8 a, on cells of equal size."""
+    found = moes(M, L, -4.5, **{"grid.x_max": x_max, "grid.nx": 192})
+    return found.replace(**{"grid.nx": round((found.grid.x_max + 4.5) * 32)})
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+@pytest.mark.parametrize(("M", "L"), [(0.5, 10.0), (1.0, 25.0)])
+def test_a_chosen_outlet_is_behind_the_rupture_and_bars_contain_the_error_of_one_before_it(M, L):
+    """By a domain that ends far behind; with and without a pressure spike at the rupture."""
+    true, chosen, near = (steady(rupturing(x_max, M, L)) for x_max in (4.0, "auto", 1.5))
+    parts = {"h_c_m": "film", "h_min_m": "thinnest", "p_max_Pa": "pressure", "friction_coefficient": "friction"}
+    for name, part in parts.items():
+        assert chosen.scalars[name] == pytest.approx(true.scalars[name], rel=1e-4), name
+        off = abs(near.scalars[name] / true.scalars[name] - 1)
+        known, inside = (getattr(shot.domain, part) for shot in (near, chosen))
+        assert 2e-3 < off < known - inside, name
+    assert chosen.domain.cut == true.domain.cut == 0.0
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+def test_an_outlet_before_the_rupture_is_reported_with_one_behind_it(tmp_path):
+    import tehl_taichi as tehl
+
+    near = rupturing(1.5)
+    summary = tehl.run(near, tmp_path / "near.zarr").summary
+    said = summary["warnings"][summary["warning_codes"].index("outlet")]
+    assert "grid.x_max = 1.5 a" in said
+    x_max, nx = float(said.partition("grid.x_max=")[2].split()[0]), int(said.partition("--grid ")[2].split()[0])
+    found = tehl.run(near.replace(**{"grid.x_max": x_max, "grid.nx": nx}), tmp_path / "far.zarr").summary
+    assert "outlet" not in found["warning_codes"] and nx / (x_max + 4.5) >= 32
+    assert "outlet_slope" in summary["steady"] and "outlet_slope" not in found["steady"]
+    assert "domain" in summary["warning_codes"]  # of the inlet at -4.5 a, whose part is its own
+    of_inlet = [one["warning_data"][one["warning_codes"].index("domain")]["part"] for one in (summary, found)]
+    assert of_inlet[0] == pytest.approx(of_inlet[1], rel=0.05)
+
+
 @pytest.mark.usefixtures("taichi_cpu")
 def test_a_domain_that_ends_too_near_is_told_with_options_that_end_that(tmp_path):
     import tehl_taichi as tehl
 
-    short = scene("smooth-line").replace(**{**THICK, "grid.x_min": -2.5})
+    short = scene("smooth-line").replace(**{**THICK, "grid.x_min": -2.5, "grid.x_max": 2.0})
     summary = tehl.run(short, tmp_path / "short.zarr").summary
     said = summary["warnings"][summary["warning_codes"].index("domain")]
     assert "begins at 2.5 a, where the gap is 1.9 times the film" in said
-    assert summary["domain"] == {"x_min_a": -2.5, "x_max_a": 1.5, "y_max_b": 1.0, "auto": False}
+    assert summary["domain"] == {"x_min_a": -2.5, "x_max_a": 2.0, "y_max_b": 1.0, "auto": False}
     parts = summary["steady"]["error_parts"]["h_c_m"]
     assert summary["steady"]["error"]["h_c_m"] == pytest.approx(math.hypot(parts["grid"], parts["domain"]))
     x_min, nx = float(said.partition("grid.x_min=")[2].split()[0]), int(said.partition("--grid ")[2].split()[0])
     wide = tehl.run(short.replace(**{"grid.x_min": x_min, "grid.nx": nx}), tmp_path / "wide.zarr").summary
-    assert "domain" not in wide["warning_codes"] and nx / (1.5 - x_min) >= 64
+    assert "domain" not in wide["warning_codes"] and nx / (2.0 - x_min) >= 256 / 4.5
     starved = tehl.run(short.replace(**STARVED), tmp_path / "starved.zarr").summary
     assert starved["warning_codes"] == ["starved"] and "takes about" in starved["warnings"][0]
     assert len(summary["warnings"]) == len(summary["warning_codes"])
