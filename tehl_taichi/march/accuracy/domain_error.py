@@ -30,9 +30,10 @@ GRUBIN, LONG = 0.73, 0.15
 STIFF, FLAT, STEEP, HOT, HOTTEST = 0.015, 0.05, 0.45, 3.5, 0.25
 # Of the largest pressure: q (PRESSURE + q); by q more: of the smallest film of a point contact, by its sides, and of friction
 PRESSURE, THINNEST, SLIDING = 0.35, 0.25, {"line": 0.2, "point": 0.7}
-# Of the slope at the outlet, p_max per a: lines of M 0.3 to 2, L 5 to 25 ending at 1.5 to 2.5 a have at most 0.21 in the film,
-# 0.33 in the largest pressure, 0.56 in friction; Newtonian oil with a spike there 2.1 and 6.9 (docs/decisions/02-inlet.md)
-CUT = {"film": 0.22, "thinnest": 0.22, "pressure": 2.2, "friction": 8.0}
+# Of the slope at the outlet, p_max per a. Ends at 1.5 to 2.5 a cost the film of lines (M 0.3 to 2, L 5 to 25) 0.21 of it,
+# of circles (M 0.5 to 2) 0.5 at most, the largest pressure 0.7, friction 0.56; with a spike there in Newtonian oil the largest pressure
+# 2.1, friction 6.9 (docs/decisions/02-inlet.md)
+CUT = {"film": 0.5, "thinnest": 0.5, "pressure": 2.2, "friction": 8.0}
 HEATING = 2.0  # of the share of the film: of the rises of temperature
 WARMED = 2.0  # of the rise by the heat of the oil before
 # Of the change of the film at the sides, for every number of a passage: asperities and dents with sides at 1 b err by 0.01 to
