@@ -30,8 +30,8 @@ GRUBIN, LONG = 0.73, 0.15
 STIFF, FLAT, STEEP, HOT, HOTTEST = 0.015, 0.05, 0.45, 3.5, 0.25
 # Of the largest pressure: q (PRESSURE + q); by q more: of the smallest film of a point contact, by its sides, and of friction
 PRESSURE, THINNEST, SLIDING = 0.35, 0.25, {"line": 0.2, "point": 0.7}
-# Of the slope at the outlet, p_max per a. Ends at 1.5 to 2.5 a cost the film of lines (M 0.3 to 2, L 5 to 25) 0.21 of it,
-# of circles (M 0.5 to 2) 0.5 at most, the largest pressure 0.7, friction 0.56; with a spike there in Newtonian oil the largest pressure
+# Of the slope at the outlet, p_max per a. Ends at 1.5 to 2.5 a cost the film of lines (M 0.3 to 2, L 5 to 25) 0.21 of it, of
+# circles (M 0.5 to 2) 0.5 at most, the largest pressure 0.7, friction 0.56; with a spike there in Newtonian oil the pressure
 # 2.1, friction 6.9 (docs/decisions/02-inlet.md)
 CUT = {"film": 0.5, "thinnest": 0.5, "pressure": 2.2, "friction": 8.0}
 HEATING = 2.0  # of the share of the film: of the rises of temperature
