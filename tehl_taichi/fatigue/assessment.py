@@ -138,7 +138,7 @@ def _of_surface(scene, passage, centres, progress, until, alone, averages):
         result = replace(result, summary={**result.summary, "stressed": stressed})
     if early is None:
         return result
-    part = resolved_part.part(scene, passage, early, until, layers, deep)
+    part = resolved_part.part(passage, early, until, layers, deep)
     return replace(result, summary={**result.summary, "resolved": part.summary}, resolved=part)
 
 

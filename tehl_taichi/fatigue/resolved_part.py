@@ -5,7 +5,7 @@ from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.fatigue.worst_point import worst_of
 
 
-def part(scene, passage, early, until, layers, deep):
+def part(passage, early, until, layers, deep):
     """The SearchResult of the moments `early` of a passage, up to the position `until` (a): "to_x_a" of its summary.
 
     layers: at the listed depths, the surface first, each with its `early`; deep:

@@ -26,10 +26,10 @@ def rainflow(values):
     return np.array(out, int).reshape(-1, 4)
 
 
-def from_largest(values):
-    """One period of a history, from its largest value to the same value."""
+def from_largest(values, *others):
+    """One period of a history and of others beside it, from its largest value to the same value."""
     top = int(np.argmax(values))
-    return np.append(np.roll(values, -top), values[top])
+    return [np.append(np.roll(one, -top), one[top]) for one in (values, *others)]
 
 
 def _turns(values):
@@ -49,9 +49,7 @@ def above(history, normal, local):
     """
     dip, strike, normal_stress = findley.shear_path(history, normal)
     mean = history[:, :3].mean(axis=1)
-    shear = _along_the_largest(dip, strike)
-    top = int(np.argmax(shear))
-    shear, normal_stress, mean = (np.append(np.roll(one, -top), one[top]) for one in (shear, normal_stress, mean))
+    shear, normal_stress, mean = from_largest(_along_the_largest(dip, strike), normal_stress, mean)
     rule, count = CRITERIA[local.criterion], 0
     for one, other, first, last in rainflow(shear):
         amplitude = 0.5 * abs(shear[one] - shear[other])

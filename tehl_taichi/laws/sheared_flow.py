@@ -60,7 +60,7 @@ def left_of(rheology, newtonian, p):
 
 
 @pointwise
-def sheared(rheology, b, by_newtonian, by_p, part, part_by_wall, part_by_p):
+def sheared(b, by_newtonian, by_p, part, part_by_wall, part_by_p):
     """Flow across the sliding, from the flow without sliding."""
     return part / b, part_by_wall / b, part / b * by_newtonian, (part_by_p + part * by_p) / b
 
@@ -70,17 +70,7 @@ def across(rheology, wall, yielding, newtonian, p):
     """Smooth and steep part of the flow across the sliding, each for its own wall stress."""
     left, none = left_of(rheology, newtonian, p), 0.0 * newtonian
     parts = flow(rheology, wall, none, p), beyond(rheology, yielding, none, p)
-    return tuple(sheared(rheology, *left, part, by_wall, by_p) for part, by_wall, _, by_p in parts)
-
-
-@unrolled
-def flow_across(rheology, wall, newtonian, p):
-    return across(rheology, wall, 0.0 * wall, newtonian, p)[0]
-
-
-@unrolled
-def beyond_across(rheology, wall, newtonian, p):
-    return across(rheology, 0.0 * wall, wall, newtonian, p)[1]
+    return tuple(sheared(*left, part, by_wall, by_p) for part, by_wall, _, by_p in parts)
 
 
 @unrolled

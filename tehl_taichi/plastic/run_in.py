@@ -86,7 +86,7 @@ def repeat_passages(scene, march, state=RunInState(), keep=lambda state: None):
 
 def state_after_passage(scene, reader, state):
     """RunInState after the passage of `reader`, which ran on the surfaces of `state`."""
-    cells = {s.name: _cells(scene, elastic_loads.histories(scene, reader, s)) for s in yielding_surfaces(scene)}
+    cells = {s.name: _cells(elastic_loads.histories(scene, reader, s)) for s in yielding_surfaces(scene)}
     if not state.bodies:
         state = replace(state, bodies={name: _virgin(*one) for name, one in cells.items()})
     found = {name: _steel_after(*one, state.bodies[name].start) for name, one in cells.items()}
@@ -99,7 +99,7 @@ def state_after_passage(scene, reader, state):
     return _next_passage(state, found)
 
 
-def _cells(scene, passage):
+def _cells(passage):
     """(passage, its :class:`Cells`) of a surface."""
     law = HARDENINGS[passage.surface.body.hardening]
     below = layers(passage.a, passage.dx)

@@ -9,7 +9,7 @@ RISEN = 1e-9  # m: a dent with a lower rim has none
 def numbers(scene, state):
     """Part "run_in" of a summary, of a finished RunInState."""
     judged, made = state.records[-1], [one for one in state.records if not one["judged"]]
-    bodies = {name: _of_body(one, judged) for name, one in state.bodies.items()}
+    bodies = {name: _of_body(one) for name, one in state.bodies.items()}
     return {"passages": state.passages, "rounds": made[0]["rounds"] if made else judged["rounds"],
             "shaken_down": judged["new_plastic_strain"] == 0.0, "new_plastic_strain": judged["new_plastic_strain"],
             "surface_change_max_m": max(one["surface_change_max_m"] for one in bodies.values()),
@@ -20,7 +20,7 @@ def numbers(scene, state):
             "unsettled_m": state.unsettled, "by_surface": bodies, "history": list(state.records)}
 
 
-def _of_body(one, judged):
+def _of_body(one):
     start = one.start
     along = start.residual[:, [ALONG, ACROSS]]
     return {"surface_change_max_m": float(np.abs(start.sinking).max()), "plastic_strain_max": float(start.hardened.max()),

@@ -14,7 +14,7 @@ FATIGUE = SimpleNamespace(criterion="findley", kappa=0.3, endurance=100e6)
 
 
 def ranges(values):
-    found = from_largest(np.asarray(values, float))
+    found, = from_largest(np.asarray(values, float))
     return sorted(float(abs(found[a] - found[b])) for a, b, *_ in rainflow(found))
 
 

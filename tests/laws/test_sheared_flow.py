@@ -44,11 +44,15 @@ def test_a_law_carries_what_the_sum_across_a_column_does(law):
 
 
 @of_every_law
-@pytest.mark.parametrize("name", ["flow", "beyond", "flow_across", "beyond_across"])
-def test_derivatives_are_those_of_the_flow(law, name):
+@pytest.mark.parametrize("steep", [False, True])
+@pytest.mark.parametrize("across", [False, True])  # there by differences of a thousandth
+def test_derivatives_are_those_of_the_flow(law, across, steep):
     """By both stresses and the pressure, against differences."""
-    function, rheology, scale = getattr(flows, name), LAWS[law], SCALE[law]
-    across = "across" in name  # there by differences of a thousandth
+    rheology, scale, parts = LAWS[law], SCALE[law], flows.across if across else flows.along
+
+    def function(rheology, wall, newtonian, p):
+        return parts(rheology, wall, wall, newtonian, p)[steep]
+
     for wall in walls_of(law):
         for r in (0.0, 0.3, 5.0, 14.9, 60.0):
             at = np.array((wall * scale, r * scale, P))
@@ -96,7 +100,7 @@ def test_across_the_sliding_it_is_the_secant(law):
     for r in SLIDING[1:]:
         newtonian = r * SCALE[law]
         left = shear_stress(LAWS[law], newtonian, P) / newtonian
-        assert flows.flow_across(LAWS[law], 1.0, newtonian, P)[0] == pytest.approx(1 / left, rel=1e-5)
+        assert flows.across(LAWS[law], 1.0, 0.0, newtonian, P)[0][0] == pytest.approx(1 / left, rel=1e-5)
         along = whole(LAWS[law], 1e-3 * SCALE[law], newtonian)
         more, less = (shear_stress(LAWS[law], newtonian * one, P) for one in (1.0001, 0.9999))
         slope = (more - less) / 2e-4 / newtonian
@@ -108,7 +112,7 @@ def test_across_the_sliding_it_is_the_secant(law):
 @of_every_law
 def test_without_sliding_both_directions_are_one(law):
     for wall in walls_of(law):
-        along, across = (function(LAWS[law], wall * SCALE[law], 0.0, P)[0] for function in (flows.flow, flows.flow_across))
+        along, across = (parts(LAWS[law], wall * SCALE[law], 0.0, 0.0, P)[0][0] for parts in (flows.along, flows.across))
         assert along == pytest.approx(across, rel=1e-12) and along >= 1.0
 
 

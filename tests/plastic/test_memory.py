@@ -28,7 +28,7 @@ class OnGrid(Rolling):
 
 def taken(scene):
     """Bytes at most while a body answers plastic strain in all of its cells."""
-    _, cells = run_in._cells(scene, elastic_loads.histories(scene, OnGrid(scene), scene.surfaces[0]))
+    _, cells = run_in._cells(elastic_loads.histories(scene, OnGrid(scene), scene.surfaces[0]))
     tracemalloc.start()
     state = SteelState.virgin(cells)
     state.strain[:] = np.random.default_rng(1).random(state.strain.shape)

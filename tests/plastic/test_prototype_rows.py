@@ -58,5 +58,5 @@ def test_flow_under_frozen_pressures_at_equal_stress_over_yield_stress(passage, 
 
 
 def _first(scene, passage):
-    histories, cells = run_in._cells(scene, elastic_loads.histories(scene, passage, scene.surfaces[0]))
+    histories, cells = run_in._cells(elastic_loads.histories(scene, passage, scene.surfaces[0]))
     return histories, cells, elastic_loads.find(histories, cells, SteelState.virgin(cells))

@@ -120,7 +120,7 @@ def test_a_look_misses_no_cell_that_yields(monkeypatch):
     """The first one takes some layers and moments; what flows is what flows with all of them."""
     reader = Flattened(STEEL)
     passage = elastic_loads.histories(STEEL, reader, STEEL.surfaces[0])
-    cells = run_in._cells(STEEL, passage)[1]
+    cells = run_in._cells(passage)[1]
     start, states = steel_body.SteelState.virgin(cells), []
     for every, some in ((elastic_loads.EVERY, elastic_loads.SOME), (1, 1)):
         monkeypatch.setattr(elastic_loads, "EVERY", every)

@@ -19,7 +19,7 @@ STEEL = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on"
 
 
 def passage_and_cells(scene):
-    return run_in._cells(scene, elastic_loads.histories(scene, Rolling(scene), scene.surfaces[0]))
+    return run_in._cells(elastic_loads.histories(scene, Rolling(scene), scene.surfaces[0]))
 
 
 def virgin_loads(scene):
