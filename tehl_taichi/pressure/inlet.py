@@ -41,9 +41,9 @@ def far(X, H, log):
     return X / T, H + 0.5 * X**2 * (1 / T**2 - 1) + 0.5 * log * np.log(T), WEIGHTS * abs(X) / T**2
 
 
-def integral(X, H, carried, log):
-    """int (H - carried)/H^3 dX beyond X."""
-    _, gap, weights = far(X, H, log)
+def integral(beyond, carried):
+    """int (film - carried)/film^3 dX of the oil `beyond`, a result of :func:`far`."""
+    _, gap, weights = beyond
     return float(np.sum(weights * (gap - carried) / gap**3))
 
 
@@ -131,11 +131,16 @@ class Inlet:
         """Border pressure for the film H with flow `carried`, for oil at the inlet viscosity."""
         v = self.levels
         if v.line:
-            shape = np.full(v.ny + 1, integral(v.X[0], H[v.middle, 0], carried, 1.0))
+            shape = np.full(v.ny + 1, integral(self.far(H), carried))
         else:
             X = np.broadcast_to(v.X, H.shape)[self.border]
             shape = self._kappa(H, carried) * np.abs(X) / ((3 + 2 * v.scales.curvature) * H[self.border] ** 2)
         return np.maximum(shape, 0.0) * v.scales.p_H / v.numbers.inv_lambda
+
+    def far(self, H):
+        """(places, films, integration weights) before the grid in the middle row, for the film H on the grid."""
+        v = self.levels
+        return far(v.X[0], H[v.middle, 0], float(v.line))
 
     def carried(self, H):
         """Flow rho H at X = 0, relative to the density at the inlet."""
@@ -153,7 +158,7 @@ class Inlet:
     def _load_of_line(self):
         v = self.levels
         H = v.get(fields.H)
-        X, gap, weights = far(v.X[0], H[v.middle, 0], 1.0)
+        X, gap, weights = self.far(H)
         shape = np.sum(weights * (np.abs(X) - abs(v.X[0])) * (gap - self.carried(H)) / gap**3)
         return max(float(shape), 0.0) / v.numbers.inv_lambda
 
@@ -174,8 +179,7 @@ class Inlet:
     def _kappa(self, H, carried):
         """Correction of a point contact: mean of 1 and the ratio of the integral along y = 0 to that of a gap ~ X^2."""
         v = self.levels
-        X, H_0 = v.X[0], H[v.middle, 0]
-        return 0.5 + 1.5 * integral(X, H_0, carried, 0.0) * H_0**2 / abs(X)
+        return 0.5 + 1.5 * integral(self.far(H), carried) * H[v.middle, 0] ** 2 / abs(v.X[0])
 
     def warmth(self):
         """Viscosity at the border nodes relative to that of inlet oil at their pressure."""

@@ -19,7 +19,7 @@ from tehl_taichi.march.accuracy.heat_before import heat_before
 from tehl_taichi.march.accuracy.side_change import side_change
 from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.pressure import fields
-from tehl_taichi.pressure.inlet import Inlet, far
+from tehl_taichi.pressure.inlet import Inlet
 from tehl_taichi.scene.domain import PASSAGE, SIDE
 
 GRUBIN, LONG = 0.73, 0.15
@@ -114,7 +114,7 @@ def _by_inlet(solver):
     film = _left(v, gap) * lost + GRUBIN * float(miss) + (FLAT + STEEP * outside) * outside
     rises = (0.0, 0.0) if v.scene.isothermal else heat_before(solver, inlet)
     return DomainError(film, film + sides * outside, (PRESSURE + outside) * outside, film + SLIDING[v.scales.kind] * outside,
-                       _before(v, H), WARMED * rises[0], WARMED * rises[1], gap, lost)
+                       _before(v, inlet, H), WARMED * rises[0], WARMED * rises[1], gap, lost)
 
 
 def _left(v, gap):
@@ -141,9 +141,9 @@ def _lost(v, inlet, H, gain):
     return float(q.max() * GRUBIN + (side / SIDE) ** -1.5)
 
 
-def _before(v, H):
+def _before(v, inlet, H):
     """Friction coefficient of the oil sheared before the domain; for a point contact over the width of the grid."""
-    X, gap, weights = far(v.X[0], H[v.middle, 0], float(v.line))
+    _, gap, weights = inlet.far(H)
     wide = 1.0 if v.line else 2 * abs(v.Y[-1])
     sheared = v.conditions["eta0"] * abs(v.conditions["u_s"]) / (v.scales.h * v.scales.p_H)
     return sheared * float(np.sum(weights / gap)) * wide / v.scales.load

@@ -13,7 +13,6 @@ import numpy as np
 
 from tehl_taichi.laws.conduction import conductivity, heat_capacity
 from tehl_taichi.pressure import fields
-from tehl_taichi.pressure.inlet import far
 
 REACHES = 4.0  # oil between walls gives off its heat over a quarter of the film thickness
 
@@ -25,7 +24,7 @@ def heat_before(solver, inlet):
     """
     v, o = solver.levels, solver.levels.scene.operation
     H = v.get(fields.H)
-    X, gap, weights = far(v.X[0], H[v.middle, 0], float(v.line))
+    X, gap, weights = inlet.far(H)
     flux = _heat(v, gap, inlet.carried(H)) * _conducted(v, np.abs(X), gap) / 2
     exposed = float(np.sum(weights * flux / np.sqrt(np.abs(X)))) * math.sqrt(v.scales.a)
     bodies = zip((v.scene.body_a, v.scene.body_b), (o.u_a, o.u_b), v.scene.at_rest)

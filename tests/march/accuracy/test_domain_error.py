@@ -57,9 +57,9 @@ def test_the_reduced_pressure_of_a_barus_oil_is_known():
 @pytest.mark.parametrize("X", [-1.5, -4.5, -20.0])
 def test_integrals_beyond_a_parabola_are_closed(X):
     """H = X^2/2: int (H - c)/H^3 = 4/(3 |X|^3) - 8 c/(5 |X|^5)."""
-    H = X * X / 2
-    assert inlet.integral(X, H, 0.0, 0.0) == pytest.approx(4 / (3 * abs(X) ** 3), rel=1e-12)
-    assert inlet.integral(X, H, 0.3, 0.0) == pytest.approx(4 / (3 * abs(X) ** 3) - 8 * 0.3 / (5 * abs(X) ** 5), rel=1e-12)
+    beyond = inlet.far(X, X * X / 2, 0.0)
+    assert inlet.integral(beyond, 0.0) == pytest.approx(4 / (3 * abs(X) ** 3), rel=1e-12)
+    assert inlet.integral(beyond, 0.3) == pytest.approx(4 / (3 * abs(X) ** 3) - 8 * 0.3 / (5 * abs(X) ** 5), rel=1e-12)
 
 
 def test_films_beyond_are_those_of_the_dry_line_and_a_constant():
