@@ -1,6 +1,5 @@
 """Residual stress along the surface: a number, or rows of depth and stress, linear between them and constant beyond."""
 
-import csv
 import re
 from pathlib import Path
 
@@ -9,14 +8,14 @@ import numpy as np
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values import units
 from tehl_taichi.values.coerce import plain, shown
-from tehl_taichi.values.column_mark import column_mark, without_empty_end, wrong_length
 from tehl_taichi.values.quantity import Number
+from tehl_taichi.values.text_table import rows_of, without_empty_end, wrong_length
 
 LARGEST = 5e9  # Pa
 STRESS = Number("", "Pa", -LARGEST, LARGEST, usual=-2e8, least=1e5)
 DEPTH = Number("", "m", 0.0, 0.03, usual=1e-4)
 WANTED = "lines with depth in m and stress in Pa; a header line may name the columns"
-COMMA = re.compile(r",(?=\d)")  # a decimal one
+COMMENT = re.compile(r"#.*")
 IN = re.compile(r"\s+in\s+", re.IGNORECASE)  # depth in m; the inch stands last
 BETWEEN = re.compile(r"[\s_()\[\]/,.;:*^-]+")  # words in the name of a column
 STATED = re.compile(r"[/(\[]\s*([^\s/()\[\]]+)\s*(?=[/)\]]|$)")  # one word in brackets or after a slash
@@ -68,23 +67,13 @@ def read(text):
     if not path.is_file():
         raise SceneError(f"--residual {text!r} is neither a stress in Pa nor a file")
     try:
-        return _rows(_words(path.read_text(encoding="utf-8-sig")))
-    except (ValueError, OSError, csv.Error) as error:
+        return _rows(rows_of(COMMENT.sub("", path.read_text(encoding="utf-8-sig"))))
+    except (ValueError, OSError) as error:
         raise SceneError(f"--residual {text}: {error}; allowed: {WANTED}") from None
 
 
-def _words(text):
-    """Lines that are neither empty nor comments, as [(line number, columns)]."""
-    lines = [(n, line.split("#")[0].strip()) for n, line in enumerate(text.splitlines(), 1)]
-    lines = [(n, line) for n, line in lines if line]
-    mark = column_mark("".join(line for _, line in lines))
-    split = (lambda line: next(csv.reader([line], delimiter=mark))) if mark else str.split
-    found = [(n, [word.strip() for word in split(line)]) for n, line in lines]
-    return found if mark == "," else [(n, [COMMA.sub(".", word) for word in words]) for n, words in found]
-
-
 def _rows(lines):
-    """Array of rows (depth, stress) of such lines; a header line may name the columns. Raises ValueError."""
+    """Array of rows (depth, stress) of lines [(number, cells)]; a header line may name the columns. Raises ValueError."""
     if not lines:
         raise ValueError("it is empty")
     columns, count, why, head = (0, 1), 2, "depth and stress", without_empty_end(lines[0][1])

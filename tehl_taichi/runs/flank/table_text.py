@@ -1,15 +1,12 @@
-"""Rows of a user's CSV table: any separator, decimal commas, units in column names."""
+"""Rows of a user's CSV table, with units in column names."""
 
-import csv
-import io
 import re
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values import units
-from tehl_taichi.values.column_mark import column_mark, without_empty_end, wrong_length
+from tehl_taichi.values.text_table import rows_of, without_empty_end, wrong_length
 
-COMMA = re.compile(r"\s*([-+]?\d*),(\d+(?:[eE][-+]?\d+)?)\s*")  # a decimal one
 WITH_UNIT = re.compile(r"(\w+)\s*[/\[(]\s*(.+?)[\])]?\s*")  # load/N, load (N), load [N]
 SPEEDS = "u_a", "u_b"  # whose names have m_s in place of m_per_s
 # {usual name of a column: (its quantity, unit that the parser of units knows, factor to the unit of the usual name)}
@@ -23,20 +20,15 @@ def rows(path):
     SceneError.
     """
     try:
-        text = files.content(path).decode("utf-8-sig")
-        mark = column_mark(text.partition("\n")[0]) or ","
-        with io.StringIO(text, newline="") as file:
-            lines = [[value.strip() for value in line] for line in csv.reader(file, delimiter=mark, skipinitialspace=True)]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        heads, *lines = [row for _, row in rows_of(files.text(path))] or [[]]
+    except (OSError, ValueError) as error:
         raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
-    heads, *lines = [line for line in lines if any(line)] or [[]]
     columns = [_column(head) for head in without_empty_end(heads)]
     names = [name for name, _ in columns]
     if twice := sorted({name for name in names if name and names.count(name) > 1}):
         raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")
     _check_lengths(path, len(names), lines)
-    points = mark != ","
-    return names, [{name: _value(name, unit, text, points) for (name, unit), text in zip(columns, line)} for line in lines]
+    return names, [{name: _value(name, unit, text) for (name, unit), text in zip(columns, line)} for line in lines]
 
 
 def _check_lengths(path, count, lines):
@@ -66,10 +58,8 @@ def _units(head, quantity):
     return [rest.replace("_", "/")] if quantity in SPEEDS else [rest]
 
 
-def _value(name, unit, text, points):
-    """Text of a value with a decimal point, in the usual unit."""
-    if points and (match := COMMA.fullmatch(text)):
-        text = f"{match[1] or 0}.{match[2]}"
+def _value(name, unit, text):
+    """Text of a value in the usual unit."""
     if not unit or units.split(text) is None:
         return text
     _, known, factor = COLUMNS[name]

@@ -1,7 +1,5 @@
 """Strength tables of users: CSV files with names and units in the first line."""
 
-import csv
-import io
 import math
 from pathlib import Path
 
@@ -12,8 +10,8 @@ from tehl_taichi.scene.strength.profiles import PROFILES
 from tehl_taichi.scene.strength.table import DEPTH, HARDNESS, KAPPA, LIMIT, RESIDUAL, YIELD
 from tehl_taichi.values.checks import nearest
 from tehl_taichi.values.coerce import shown
-from tehl_taichi.values.column_mark import column_mark, without_empty_end, wrong_length
 from tehl_taichi.values.quantity import Number
+from tehl_taichi.values.text_table import rows_of, without_empty_end, wrong_length
 
 MOST, LARGEST = 500, 1e6  # rows, bytes
 STRESS = {"Pa": 1.0, "MPa": 1e6}
@@ -63,21 +61,14 @@ def _read(where, path, place):
 
 
 def _rows(where, content):
-    """Rows of the file as lists of words, without empty lines and comments (#). Raises SceneError."""
-    lines = [line for line in content.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    """Rows of the file as lists of words. Raises SceneError."""
     try:
-        mark = column_mark("".join(lines[:1])) or ","
-        rows = [[_cell(cell, mark) for cell in row] for row in csv.reader(io.StringIO("\n".join(lines)), delimiter=mark)]
-    except csv.Error as error:
+        rows = [row for _, row in rows_of(content)]
+    except ValueError as error:
         raise SceneError(f"{where} cannot be read: {error}") from None
     if not 2 <= len(rows) <= MOST + 1:
         raise SceneError(f"{where} has {max(len(rows) - 1, 0)} rows of numbers; allowed: 1 to {MOST} below a line of names")
     return rows
-
-
-def _cell(cell, mark):
-    """Text of a cell; if another mark separates the columns, a comma is a decimal point."""
-    return cell.strip() if mark == "," else cell.strip().replace(",", ".")
 
 
 def _columns(where, rows):

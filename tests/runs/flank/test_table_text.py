@@ -16,10 +16,11 @@ def cam(tmp_path, text):
 
 
 @pytest.mark.parametrize("text", [
-    CAM.replace(",", ";").replace(".", ","), CAM.replace(", ", "\t"), CAM.replace("\n", "\n\n"),
+    CAM.replace(",", ";").replace(".", ","), CAM.replace(", ", "\t"), CAM.replace(",", " "), CAM.replace("\n", "\n\n"),
+    "\n# made by hand, 1; 2\n" + CAM.replace(",", ";").replace(".", ","), CAM + ",,,,\n",
     "angle_rad,load_kN_per_m,R_m,u_a_mm_s,u_b_cm_s\n-0.3490658503988659,116.4,0.0166,2000,60\n0,120,0.018,2200,70\n",
     "angle (deg),load [kN/m],R (cm),u_a (m/s),u_b (m/s)\n-20,116.4,1.66,2.0,0.6\n0,120,1.8,2.2,0.7\n"],
-    ids=["semicolons", "tabs", "empty lines", "other units", "brackets"])
+    ids=["semicolons", "tabs", "blanks", "empty lines", "comments", "empty rows", "other units", "brackets"])
 def test_a_cam_table_in_other_words_is_the_same_cam(tmp_path, text):
     for one, other in zip(cam(tmp_path, text), cam(tmp_path, CAM), strict=True):
         for key in ("angle", "R", "load", "u_a", "u_b"):

@@ -7,9 +7,9 @@ import numpy as np
 
 from tehl_taichi.scene.surface.maps import coordinates, line_profiles, point_lists, stated_values
 from tehl_taichi.scene.surface.maps.stated_values import Stated
-from tehl_taichi.values import column_mark
+from tehl_taichi.values import text_table
 
-COLUMNS = (*column_mark.MARKS, None)  # what may stand between two heights, the first that a row has; None: blanks
+COLUMNS = (*text_table.MARKS, None)  # what may stand between two heights, the first that a row has; None: blanks
 UNMEASURED = ("bad", "bad data", "nan", "na", "n/a", "no data", "no_data", "nodata", "null")  # also nothing, and * or - alone
 MARKS = "bad, nan, no data, ***, --- or an empty field"
 SPLIT = {"no data": "nodata", "bad data": "bad"}  # marks of two words, which blanks would part

@@ -1,0 +1,57 @@
+"""Tables in text files of users: separator of the columns, cells, and rows that a wrong separator has cut."""
+
+import csv
+import re
+
+MARKS = ";", "\t", ","  # the first that a text has: with the others numbers may have decimal commas
+COMMA = re.compile(r"([-+]?\d*),(\d+(?:[eE][-+]?\d+)?)")  # a decimal one
+
+
+def rows_of(text):
+    """[(line number, cells)] of a table, without empty rows and comments (lines that begin with #). Raises ValueError.
+
+    The first row shows the separator, blanks if it has no other one; numbers have decimal points.
+
+    >>> rows_of("# in mm\\n\\ndepth;note\\n0,5;1,2,3\\n")
+    [(3, ['depth', 'note']), (4, ['0.5', '1,2,3'])]
+    """
+    lines = [(n, line) for n, line in enumerate(text.splitlines(keepends=True), 1) if line.strip() and line.lstrip()[0] != "#"]
+    mark = _column_mark(lines[0][1]) if lines else None
+    cells = _split([line for _, line in lines], mark) if mark else ((at, line.split()) for at, (_, line) in enumerate(lines))
+    try:
+        rows = [(lines[at][0], [_cell(one.strip(), mark) for one in row]) for at, row in cells]
+    except csv.Error as error:
+        raise ValueError(str(error)) from None
+    return [(n, row) for n, row in rows if any(row)]
+
+
+def _column_mark(line):
+    return next((mark for mark in MARKS if mark in line), None)
+
+
+def _split(lines, mark):
+    """Generator of (number of its last line, cells) of each row."""
+    reader = csv.reader(lines, delimiter=mark, skipinitialspace=True)
+    yield from ((reader.line_num - 1, row) for row in reader)
+
+
+def _cell(text, mark):
+    match = COMMA.fullmatch(text) if mark != "," else None
+    return f"{match[1]}.{match[2]}" if match else text
+
+
+def without_empty_end(names):
+    """Names of columns without empty ones at the end: spreadsheets end lines with separators."""
+    last = max((n for n, name in enumerate(names, 1) if name), default=0)
+    return names[:last]
+
+
+def wrong_length(row, count, why="as in the line of names"):
+    """End of a sentence about a row with more or fewer cells than `count`; "" for a row that fits.
+
+    Empty cells beyond the names count as none, as in :func:`without_empty_end`.
+    """
+    if len(row) >= count and not any(row[count:]):
+        return ""
+    return (f"has {len(row)} column{'s' * (len(row) != 1)}; allowed: {count}, {why} (a decimal comma needs a semicolon between "
+            "columns)")
