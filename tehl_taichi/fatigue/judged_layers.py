@@ -14,6 +14,12 @@ def judged(Fi, error=None):
     return ABOVE if Fi > 1 else BELOW
 
 
+def standing(Fi, error):
+    """Order in which indices decide, before their size: by state; above 1 those with a known error, because one is enough."""
+    state = judged(Fi, error)
+    return state, state == ABOVE and error is not None
+
+
 def deciding(searches):
     """({surface: summary that decides}, whether they are of the resolved part) of {surface: summary of its search}.
 
@@ -29,7 +35,7 @@ def deciding(searches):
 
 def worst_layer(searches):
     """The :func:`layers` entry that decides the verdict on {surface: summary of its search}: the worst."""
-    return max(all_layers(deciding(searches)[0]), key=lambda one: (judged(*one[1:]), one[1]))
+    return max(all_layers(deciding(searches)[0]), key=lambda one: (standing(*one[1:]), one[1]))
 
 
 def _settled(searches):

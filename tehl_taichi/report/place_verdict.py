@@ -1,13 +1,23 @@
-"""Answer for a sequence of contacts: the place with the largest index, and those whose error bars overlap with it."""
+"""Answer for a sequence of contacts: the place whose index decides, and those whose error bars overlap with it."""
 
 from dataclasses import dataclass
 from functools import cached_property
 
-from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, error_of, judged, worst_layer
+from tehl_taichi.fatigue.judged_layers import (
+    ABOVE,
+    BELOW,
+    WITHIN,
+    all_layers,
+    deciding,
+    error_of,
+    judged,
+    standing,
+    worst_layer,
+)
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.number_text import FEW, index, value_text
-from tehl_taichi.report.verdict import LATER, headline
+from tehl_taichi.report.verdict import LATER, headline, load_too
 from tehl_taichi.runs.flank.flank_columns import error_of as error_in
 from tehl_taichi.values.digits import micrometres
 
@@ -71,8 +81,8 @@ def judged_places(rows, name, words):
 
 
 def worst(places):
-    """The :class:`JudgedPlace` with the largest index."""
-    return max(places, key=lambda place: (place.state, place.Fi))
+    """The :class:`JudgedPlace` that decides."""
+    return max(places, key=lambda place: (standing(place.Fi, place.error), place.Fi))
 
 
 def overlapping_places(places):
@@ -88,7 +98,8 @@ def _overlap(place, top):
 def answer(places, count):
     """(headline, tone, sentences); places: not empty; count: of all positions."""
     top, group = worst(places), overlapping_places(places)
-    text, tone = _load_too(_headline(places, top, group), places)
+    searches = [one for place in places for one in place.searches.values()]
+    text, tone = load_too(_headline(places, top, group), searches)
     return text, tone, _sentences(places, top, group, count)
 
 
@@ -122,8 +133,8 @@ def _sentences(places, top, group, count):
     apart = f"; its error does not separate it from {_listed(others)}" if others else ""
     above, within = (sum(place.state == state for place in places) for state in (ABOVE, WITHIN))
     doubtful = f"; 1 lies within the error at {within} more" if within else ""
-    return (*_alone(places), f"The largest {what} is Fi = {index(top.Fi, top.error)}, {top.where}{apart}.", *_whole(places),
-            f"It is above 1 at {above} of {count} positions{doubtful}.")
+    decides = f"The {what} that decides is Fi = {index(top.Fi, top.error)}, {top.where}{apart}."
+    return (*_alone(places), decides, *_whole(places), f"It is above 1 at {above} of {count} positions{doubtful}.")
 
 
 def _whole(places):
@@ -138,29 +149,16 @@ def _whole(places):
             f"{index(Fi, error)}{unknown}, {where} at {top.words}.",)
 
 
-def _smooth(places):
-    """(place, numbers of its smooth contact) with the largest index, None if none is known."""
-    found = [(place, part) for place in places for one in place.searches.values()
-             if (part := searched(one).get("contact_alone"))]
-    return max(found, key=lambda one: one[1]["Fi_max"], default=None)
-
-
 def _alone(places):
     """Sentence about the load limit of the smooth contacts."""
-    if not (found := _smooth(places)):
+    found = [(place, part) for place in places for one in place.searches.values()
+             if (part := searched(one).get("contact_alone"))]
+    if not found:
         return ()
-    place, alone = found
+    place, alone = max(found, key=lambda one: one[1]["Fi_max"])
     depth = f"{micrometres(alone['depth_m'])} µm below the surface" if alone["depth_m"] else "at the surface"
     return (f"The smooth contacts alone: Fi = {index(alone['Fi_max'], error_of(alone, 'Fi_max'))} at most, {depth} at "
             f"{place.words}.",)
-
-
-def _load_too(verdict, places):
-    """(headline, tone), with a note if the load alone exceeds the limit."""
-    (text, tone), found = verdict, _smooth(places)
-    if tone != "yes" or not found or judged(found[1]["Fi_max"], error_of(found[1], "Fi_max")) != ABOVE:
-        return text, tone
-    return f"{text.removesuffix('.')}. The load alone exceeds it, without any feature.", tone
 
 
 def thinnest(rows):

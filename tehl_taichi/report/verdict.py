@@ -2,7 +2,7 @@
 
 from types import MappingProxyType
 
-from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, error_of, judged
+from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, error_of, judged, standing
 from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
@@ -82,25 +82,23 @@ def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
         sentences = ["99th percentile of the index:", *sentences, *_spread(searches)]
     elif early:
         verdict, sentences = _by_resolved_part(parts, worst, sentences, over, feature_wording.position_word(scene))
-    text, tone = _load_too(verdict, searches)
+    text, tone = load_too(verdict, searches.values())
     return FATIGUE, text, tone, (*_alone_words(searches), *sentences, *_plane(fatigue))
 
 
 def _from_pressure(searches):
     """Sentences about the index of the pressure alone."""
-    sentences = (_index_sentence(*layer) for layer in _judged_layers(searches))
+    sentences = (_index_sentence(*layer) for layer in all_layers(searches))
     return ("From the pressure alone, without surface shear and frictional heat:", *sentences)
 
 
 def _judged_indices(searches):
-    """(worst index, text of its places, whether its errors are known, sentences)."""
-    found = _judged_layers(searches)
-    worst = max(state for *_, state in found)
-    all_of_them = [(where, error) for where, _, error, state in found if state == worst]
-    sure = [one for one in all_of_them if one[1] is not None]
-    decide = sure if sure and worst == ABOVE else all_of_them  # one place with a known error is enough for a yes
-    places = _enumeration([where for where, _ in decide])
-    return worst, places, len(decide) == len(sure), [_index_sentence(*layer) for layer in found]
+    """(worst state, text of its places, whether their errors are known, sentences)."""
+    found = all_layers(searches)
+    worst = max(standing(Fi, error) for _, Fi, error in found)
+    decide = [(where, error) for where, Fi, error in found if standing(Fi, error) == worst]
+    places, known = _enumeration([where for where, _ in decide]), all(error is not None for _, error in decide)
+    return worst[0], places, known, [_index_sentence(*layer) for layer in found]
 
 
 def _enumeration(words):
@@ -112,11 +110,6 @@ def _enumeration(words):
     else:
         once = ""
     return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) + once
-
-
-def _judged_layers(searches):
-    """[(where, Fi, its error or None, its state)] of each {surface: summary}, see :func:`all_layers`."""
-    return [(where, Fi, error, judged(Fi, error)) for where, Fi, error in all_layers(searches)]
 
 
 def _by_resolved_part(parts, whole, sentences, over, whose):
@@ -150,9 +143,9 @@ def _place(x):
     return f"{x:.2f} a, that is {abs(x):.2f} half-widths {side} the middle of the contact"
 
 
-def _index_sentence(where, Fi, error, state):
+def _index_sentence(where, Fi, error):
     unknown = "" if error is not None else " (error unknown)"
-    return f"{where[0].upper()}{where[1:]}: Fi = {index(Fi, error)}{unknown}, {SAID[state]}."
+    return f"{where[0].upper()}{where[1:]}: Fi = {index(Fi, error)}{unknown}, {SAID[judged(Fi, error)]}."
 
 
 def headline(worst, places, known, when=""):
@@ -165,24 +158,18 @@ def headline(worst, places, known, when=""):
     return f"{no}: the index stays below 1{when}{more}.", "no"
 
 
-def _load_too(verdict, searches):
-    """(headline, tone), with a note if the load alone exceeds the limit."""
-    (text, tone), alone = verdict, _worst_alone(searches)
-    if tone != "yes" or not alone or judged(alone[1]["Fi_max"], error_of(alone[1], "Fi_max")) != ABOVE:
+def load_too(verdict, searches):
+    """(headline, tone), with a note if the load of one of the summaries of searches exceeds the limit alone."""
+    (text, tone), alone = verdict, [part for one in searches if (part := searched(one).get("contact_alone"))]
+    if tone != "yes" or all(judged(part["Fi_max"], error_of(part, "Fi_max")) != ABOVE for part in alone):
         return text, tone
     return f"{text.removesuffix('.')}. The load alone exceeds it, without any feature.", tone
 
 
 def _worst_alone(searches):
-    """(surface, numbers) of the smooth body with the larger index, or None."""
+    """(surface, numbers) of the smooth body whose index decides, or None."""
     found = [(name, part) for name, one in searches.items() if (part := searched(one).get("contact_alone"))]
-    return max(found, key=_state_and_index, default=None)
-
-
-def _state_and_index(named):
-    """Order of (name, numbers) by what is known of the index, then by the index."""
-    Fi, error = named[1]["Fi_max"], error_of(named[1], "Fi_max")
-    return judged(Fi, error), Fi
+    return max(found, key=lambda one: (standing(one[1]["Fi_max"], error_of(one[1], "Fi_max")), one[1]["Fi_max"]), default=None)
 
 
 def _alone_words(searches):

@@ -26,7 +26,7 @@ def answer(**found):
 def test_the_largest_index_alone_is_named():
     text, tone, sentences = answer(A=search(1.4, 0.1), B=search(1.1, 0.05), C=search(1.02, 0.05), E=None)
     assert (text, tone) == ("Yes: the fatigue limit is exceeded at the surface at point A.", "yes")
-    assert sentences[1:] == ("The largest index is Fi = 1.40 ± 0.10, at the surface at point A.",
+    assert sentences[1:] == ("The index that decides is Fi = 1.40 ± 0.10, at the surface at point A.",
                              "It is above 1 at 2 of 4 positions; 1 lies within the error at 1 more.")
     assert sentences[0].startswith("The smooth contacts alone: Fi = 0.900 ± 0.010 at most, 180 µm below the surface at point A")
 
@@ -37,8 +37,15 @@ def test_places_that_errors_do_not_separate_are_named_together():
     assert "at point B; its error does not separate it from A and C." in sentences[1]
     apart, *_ = answer(A=search(1.40, 0.1), B=search(1.1, 0.05), E=search(1.45, 0.05))
     assert "exceeded at A and E, where the errors do not separate" in apart
-    unknown, *_ = answer(A=search(1.40, 0.1), B=search(1.45))
-    assert unknown == "Probably yes: the fatigue limit is exceeded at the surface at point B; the error of this is unknown."
+
+
+def test_a_known_error_decides_before_a_larger_index_without_one():
+    """As among the surfaces of one contact."""
+    for known, unknown in (("A", "B"), ("B", "A")):
+        text, *_ = answer(**{known: search(1.40, 0.1), unknown: search(1.45)})
+        assert text == f"Yes: the fatigue limit is exceeded at the surface at point {known}."
+    text, *_ = answer(A=search(1.45), B=search(0.9, 0.01))
+    assert text == "Probably yes: the fatigue limit is exceeded at the surface at point A; the error of this is unknown."
 
 
 def test_a_place_is_judged_by_its_resolved_part():
@@ -46,7 +53,7 @@ def test_a_place_is_judged_by_its_resolved_part():
     text, tone, sentences = answer(D=search(2.3, None, (1.25, 0.02)), E=search(1.9, None, (1.6, 0.03)))
     assert tone == "yes" and text == ("Yes: the fatigue limit is exceeded at the surface at point E, even without the "
                                       "pressures that the grid does not resolve.")
-    assert sentences[1] == "The largest index is Fi = 1.600 ± 0.030, at the surface at point E."
+    assert sentences[1] == "The index that decides is Fi = 1.600 ± 0.030, at the surface at point E."
     assert sentences[2].startswith("At D and E the grid does not resolve")
     assert sentences[2].endswith("Fi = 2.3 (error unknown), at the surface at point D.")
 
@@ -61,6 +68,9 @@ def test_an_index_that_exceeds_1_only_later_decides_nothing(whole, expected):
 def test_the_load_alone_comes_first():
     text, *_ = answer(A=search(1.4, 0.1, alone=1.2), B=search(0.7, 0.1))
     assert text.endswith("at the surface at point A. The load alone exceeds it, without any feature.")
+    larger = search(0.7, 0.1, alone=1.3)
+    larger["contact_alone"]["error"]["Fi_max"] = 0.5  # may not exceed the limit, which the other load surely does
+    assert answer(A=search(1.4, 0.1, alone=1.2), B=larger)[0].endswith("The load alone exceeds it, without any feature.")
 
 
 def test_a_kind_of_warning_is_one_sentence():

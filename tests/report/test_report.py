@@ -144,7 +144,7 @@ def test_tables_have_the_error_below_the_surface_and_what_no_figure_shows(pages,
 def test_what_has_no_known_error_is_told_with_few_digits(pages):
     run, flank = pages["thermal"].text, pages["flank"].text
     assert "\n0.3 µm\nno coarser grid\n" in run and "\nindex Fi\n1.008 ± 0.023\n1.4\n" in run
-    assert "The largest index is Fi = 1.4, at the surface at A" in flank
+    assert "The index that decides is Fi = 1.4, at the surface at A" in flank
     assert number_text.value_text(3.9443e-7, None, "m", digits=3) == "0.394 µm" and number_text.index(1.008, None) == "1.008"
     assert [number_text.index(1.392, error) for error in (None, 0.041)] == ["1.4", "1.392 ± 0.041"]
 

@@ -49,7 +49,7 @@ def test_figure_and_page_show_them(rough):
     assert [line["name"] for line in index][:2] == ["99th percentile at the surface", "median at the surface"]
     assert share[0]["y"] == pytest.approx([12, 12])
     answer = flank_page.of(rough.folder).answer
-    assert "The largest 99th percentile of the index is Fi = 1.4, 7 µm below the surface at A" in answer.sentences[0]
+    assert "The 99th percentile of the index that decides is Fi = 1.20 ± 0.10, at the surface at A" in answer.sentences[0]
 
 
 def test_a_single_feature_has_its_largest_index_alone(tmp_path):
