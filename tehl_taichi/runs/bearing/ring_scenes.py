@@ -12,7 +12,8 @@ from tehl_taichi.scene.description import Scene
 from tehl_taichi.values.coded_warning import unique
 
 STEADY_GRID = {"grid.nx": 128, "grid.ny": 32}  # of steady contacts, unless the caller or the scene says otherwise
-OF_PASSAGES = ("time.", "feature.", "fatigue.")  # keys that say nothing of the ring without features
+# beginnings of keys that say nothing of the ring without features
+OF_PASSAGES = ("time.", "feature.", *(f"fatigue.{key}" for key in idle_keys.OF_A_PASSAGE))
 SMALLEST = 1e-12  # of a slide-roll ratio that is rounding
 
 

@@ -340,6 +340,18 @@ def test_keys_of_a_passage_have_no_effect_where_nothing_passes(tmp_path):
     assert not tehl.scene(steady.rings["inner"]["scene_file"]).transient
 
 
+def test_the_strength_of_the_steel_counts_in_both_rings(tmp_path):
+    """A steady ring has an index of its smooth contact; only keys of a passage end at the other ring."""
+    keys = {"kappa": 0.5, "endurance": 3e8, "fatigue.residual_xx": -2e8}
+    for more in ({}, dict(feature=tehl.Feature(**DENT))):
+        changes = {**keys, **({"fatigue.from_x": -2.0} if more else {})}
+        found = tehl.bearing("6206", changes=changes, run=False, folder=tmp_path / f"b{len(more)}", **more)
+        for ring in found.rings.values():
+            fatigue = tehl.scene(ring["scene_file"]).fatigue
+            assert (fatigue.kappa, fatigue.endurance, fatigue.residual_xx) == (0.5, 3e8, -2e8)
+        assert not found.record["warnings"]
+
+
 def test_a_folder_of_something_else_is_kept(tmp_path):
     (tmp_path / "notes.txt").write_text("mine")
     with pytest.raises(StoreError, match="is not the folder of a bearing"):
