@@ -33,11 +33,11 @@ class Kinds:
 
     def of(self, warning):
         """Kind of a warning: its code and the key that it is about, and which of several such it is (one per feature, body)."""
-        code, data = code_of(warning), getattr(warning, "data", {})
-        same = self.found.setdefault((code or str(warning), data.get("key", "")), [])
+        kind = code_of(warning) or str(warning), getattr(warning, "data", {}).get("key", "")
+        same = self.found.setdefault(kind, [])
         if warning not in same:
             same.append(warning)
-        return code or str(warning), data.get("key", ""), same.index(warning)
+        return *kind, same.index(warning)
 
 
 def lists(warnings):
