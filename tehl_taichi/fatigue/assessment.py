@@ -166,42 +166,59 @@ def _early(passage, until):
 
 def _result(scene, passage, layers, below, alone):
     """SearchResult of one body from its layers (the surface first), its DepthResult and its smooth contact (or None)."""
-    surface, strength, centres = layers[0], passage.strength, passage.positions
-    local, limit = strength.at(0.0), strength.surface_limit
-    summary = {"surface": passage.surface.name, "carries_feature": bool(passage.surface.features),
-               "rough": rough_surfaces.is_rough(scene),
-               **surface.worst.summary(), "sigma1_max_Pa": float(surface.sigma1.max()),
-               "kappa_F": float(local.kappa), "sigma_eF_Pa": float(limit), **_limits(scene.fatigue, strength),
-               **_cut(scene.fatigue), **surface.worst.moments(centres),
-               "criterion": scene.fatigue.criterion, "thermal_stress": scene.has_thermal_stress,
-               "pit_angles_deg": list(PIT_ANGLES), **({"contact_alone": alone.summary} if alone else {})}
-    counts = index_statistics.weights(passage)
-    arrays = {**result_arrays.of_surface(surface, passage, limit, counts), "worst": surface.worst.history(centres)}
-    summary |= {"cycles_above_1": stress_cycles.above(surface.worst.stress, surface.worst.normal, local)}
-    if passage.sought is not Sought.WORST:
-        summary |= {"statistics": _statistics(surface, counts, limit)}
+    surface, centres, counts = layers[0], passage.positions, index_statistics.weights(passage)
+    arrays = {**result_arrays.of_surface(surface, passage, passage.strength.surface_limit, counts),
+              "worst": surface.worst.history(centres)}
+    summary = _surface_numbers(scene, passage, surface, alone, counts)
     peaks = [found.mises for found in layers] + below.mises
-    summary["von_mises"] = von_mises.summary(peaks, surface.mises.value, passage.surface, strength)
-    points = [found.worst for found in layers[1:]] + below.worst
-    if points:
+    summary["von_mises"] = von_mises.summary(peaks, surface.mises.value, passage.surface, passage.strength)
+    if points := [found.worst for found in layers[1:]] + below.worst:
         point = worst_of(points)
         summary["below"] = {"depth_m": point.depth, **point.summary(), **local_strength.of_point(passage, point),
-                            "cycles_above_1": stress_cycles.above(point.stress, point.normal, point.local)}
-        arrays["worst_below"] = point.history(centres)
-    if below.profiles:
-        depths = below.profiles[0].depths
-        summary["below"] |= {"searched_m": [float(depths[0]), float(depths[-1])]}
-        arrays |= result_arrays.of_profiles(surface.f, passage, below.profiles, len(layers) > 1)
-        arrays |= {"findley_stress_contact_alone": alone.f} if alone else {}
-        arrays |= result_arrays.of_plane(below.plane) if below.plane else {}
-        arrays |= result_arrays.of_limits(strength, depths, below.plane, layers)
-        if passage.sought is not Sought.WORST:
-            summary["below"]["statistics"] = _statistics_below(below, counts, passage)
+                            **_cycles(point, point.local), **_depth_numbers(passage, below, counts)}
+        arrays |= {"worst_below": point.history(centres), **_depth_arrays(passage, layers, below, alone)}
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
                                 "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]
         arrays |= result_arrays.of_layers(layers)
     return SearchResult(summary, **arrays)
+
+
+def _surface_numbers(scene, passage, surface, alone, counts):
+    """Numbers of the surface of one body, with the constants and the smooth contact; counts: weights of its points."""
+    local, limit = passage.strength.at(0.0), passage.strength.surface_limit
+    statistics = {} if passage.sought is Sought.WORST else {"statistics": _statistics(surface, counts, limit)}
+    return {"surface": passage.surface.name, "carries_feature": bool(passage.surface.features),
+            "rough": rough_surfaces.is_rough(scene),
+            **surface.worst.summary(), "sigma1_max_Pa": float(surface.sigma1.max()),
+            "kappa_F": float(local.kappa), "sigma_eF_Pa": float(limit), **_limits(scene.fatigue, passage.strength),
+            **_cut(scene.fatigue), **surface.worst.moments(passage.positions),
+            "criterion": scene.fatigue.criterion, "thermal_stress": scene.has_thermal_stress,
+            "pit_angles_deg": list(PIT_ANGLES), **({"contact_alone": alone.summary} if alone else {}),
+            **_cycles(surface.worst, local), **statistics}
+
+
+def _cycles(point, local):
+    return {"cycles_above_1": stress_cycles.above(point.stress, point.normal, local)}
+
+
+def _depth_numbers(passage, below, counts):
+    """Numbers of the searched depths; {} if none were searched."""
+    if not below.profiles:
+        return {}
+    depths = below.profiles[0].depths
+    statistics = {} if passage.sought is Sought.WORST else {"statistics": _statistics_below(below, counts, passage)}
+    return {"searched_m": [float(depths[0]), float(depths[-1])], **statistics}
+
+
+def _depth_arrays(passage, layers, below, alone):
+    """Arrays over the searched depths; {} if none were searched."""
+    if not below.profiles:
+        return {}
+    return {**result_arrays.of_profiles(layers[0].f, passage, below.profiles, len(layers) > 1),
+            **({"findley_stress_contact_alone": alone.f} if alone else {}),
+            **(result_arrays.of_plane(below.plane) if below.plane else {}),
+            **result_arrays.of_limits(passage.strength, below.profiles[0].depths, below.plane, layers)}
 
 
 def _statistics(layer, counts, limit):
