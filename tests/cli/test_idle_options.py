@@ -14,10 +14,10 @@ def run(tmp_path_factory):
 @pytest.fixture
 def no_work(monkeypatch):
     """Long work is not done: whoever starts it fails."""
-    from tehl_taichi.runs.flank import flank_run
+    from tehl_taichi.runs.flank import outcomes
     from tehl_taichi.runs.stored_run import Run
 
-    for owner, name in ((Run, "fatigue"), (Run, "crack"), (flank_run, "summaries")):
+    for owner, name in ((Run, "fatigue"), (Run, "crack"), (outcomes, "summaries")):
         monkeypatch.setattr(owner, name, lambda *_, **__: pytest.fail("the work was started"))
 
 

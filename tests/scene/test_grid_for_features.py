@@ -7,7 +7,7 @@ from tehl_cli.main import app
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl
-from tehl_taichi.runs.cam import cam_run
+from tehl_taichi.runs.flank import outcomes
 from tehl_taichi.scene import grid_for_features, resolution, scene
 from tehl_taichi.scene.feature import Feature
 
@@ -92,6 +92,6 @@ def test_a_cam_has_a_grid_for_its_dent_too(tmp_path, monkeypatch):
     table = tmp_path / "cam.csv"
     table.write_text("angle_deg, load_N_per_mm, R_mm, u_a_m_s, u_b_m_s\n-20, 116, 17, 2.0, 0.6\n0, 12, 17, 2.2, 0.7\n")
     seen = []
-    monkeypatch.setattr(cam_run, "summaries", lambda scenes, *rest: seen.extend(scenes) or iter(()))
+    monkeypatch.setattr(outcomes, "summaries", lambda scenes, *rest: seen.extend(scenes) or iter(()))
     tehl.cam(table, feature=Feature(shape="dent", height=-2e-6, width=0.2e-3, rim=0.3e-6), folder=tmp_path / "cam")
     assert len(seen) == 2 and all(cells(one) >= resolution.ENOUGH and one.grid.ny >= 64 for one in seen)

@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 from tehl_taichi.disk import files
-from tehl_taichi.errors import Error, StoreError, interrupt
+from tehl_taichi.errors import Error, StoreError
 from tehl_taichi.runs.bearing import ellipse_slip, kinematics, load_distribution, ring_contacts, ring_scenes, stiffness
 from tehl_taichi.runs.bearing.bearing_source import bearing_source, default_scene
 from tehl_taichi.runs.bearing.dry_contact import dry_contact
@@ -17,7 +17,7 @@ from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
 from tehl_taichi.runs.bearing.static_safety import LIMITS, safety
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.flank.flank_run import all_changes, first_free_folder
-from tehl_taichi.runs.flank.outcomes import stored_outcomes, summaries
+from tehl_taichi.runs.flank.outcomes import computed, stored_outcomes
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.scene import Scene, grid_for_features, scene_file
 from tehl_taichi.scene.feature import Feature
@@ -77,7 +77,9 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     _report(progress_of(progress), rings, doubts)
     if workers is None and threads is None and passing:
         workers = 1  # all cores for the passage, which takes minutes, the other ring seconds
-    return _run(made, rings, workers, threads, progress) if run else made
+    if not run:
+        return made
+    return computed(made, _with_ring, _scenes(rings), workers, threads, progress)
 
 
 def _report(progress, rings, doubts):
@@ -168,10 +170,17 @@ def _formula(made):
 
 def _with_stored(made, rings):
     """The bearing with the results in its stores. Raises StoreError for stores of other scenes, before anything is replaced."""
-    names = list(rings)
-    for n, outcome in stored_outcomes([case.scene for case in rings.values()], made.folder).items():
-        made = made.with_ring(names[n], outcome)
+    for n, outcome in stored_outcomes(_scenes(rings), made.folder).items():
+        made = _with_ring(made, n, outcome)
     return made
+
+
+def _scenes(rings):
+    return [rings[ring].scene for ring in RINGS]
+
+
+def _with_ring(made, n, outcome):
+    return made.with_ring(RINGS[n], outcome)
 
 
 def _check_scenes(folder, rings):
@@ -197,15 +206,3 @@ def write_scenes(folder, rings):
         for ring, case in rings.items():
             if not os.path.lexists(file := Path(folder) / f"{ring}.toml"):
                 files.replace(file, scene_file.dumps(case.scene).encode())
-
-
-def _run(made, rings, workers, threads, progress):
-    """Run both scenes; returns the bearing with their results."""
-    names = list(rings)
-    try:
-        for n, outcome in summaries([case.scene for case in rings.values()], made.folder, workers, threads, progress):
-            made = made.with_ring(names[n], outcome)
-            made.write()
-    except KeyboardInterrupt as stop:
-        raise interrupt(stop, f"; repeat the command with --out {made.folder} to resume") from None
-    return made

@@ -3,14 +3,14 @@
 import dataclasses
 from os import PathLike
 
-from tehl_taichi.errors import SceneError, interrupt
+from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.bearing.ring_scenes import base_of, smooth
 from tehl_taichi.runs.cam import cam_columns, cam_table, stored_cam
 from tehl_taichi.runs.cam.stored_cam import Cam
 from tehl_taichi.runs.flank import further_columns
 from tehl_taichi.runs.flank.flank_run import all_changes, first_free_folder
 from tehl_taichi.runs.flank.line_contacts import scene_at, scene_with_grid_at
-from tehl_taichi.runs.flank.outcomes import summaries
+from tehl_taichi.runs.flank.outcomes import computed
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.scene import Scene, grid_for_features, idle_keys
 from tehl_taichi.scene import scene as built_in
@@ -50,7 +50,8 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     Cam.check_writable(target, made)
     for grid in (grid for _, grid in found.values() if grid):
         progress_of(progress).say(grid)
-    return _run(made, scenes, workers, threads, progress)
+    numbers, films = list(scenes), list(scenes.values())
+    return computed(made, lambda one, n, outcome: one.with_position(numbers[n], outcome), films, workers, threads, progress)
 
 
 def _as_it_moves(base, at):
@@ -80,17 +81,3 @@ def _position(at, folder, scene):
             "srr": at.srr, "p_Hertz_Pa": Scales.of(scene).p_H if scene else None, **at.more,
             "store": str(folder / f"{scene.name}.zarr") if scene else None, "converged": False,
             "reason": WAITING if scene else at.without_film, "summary": None}
-
-
-def _run(made, scenes, workers, threads, progress):
-    """Run the scenes {number of the position: scene}; returns the cam with their results."""
-    numbers, done = list(scenes), 0
-    try:
-        for n, outcome in summaries(list(scenes.values()), made.folder, workers, threads, progress):
-            made, done = made.with_position(numbers[n], outcome), done + 1
-            made.write()
-    except KeyboardInterrupt as stop:
-        raise interrupt(stop, f" after {done} of {len(scenes)} angles; repeat the tehl cam command with --out {made.folder} to "
-                              "resume") from None
-    return made
-

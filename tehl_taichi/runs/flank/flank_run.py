@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 
-from tehl_taichi.errors import interrupt
 from tehl_taichi.runs import machine_life
 from tehl_taichi.runs.flank.flank_source import flank_source
 from tehl_taichi.runs.flank.line_contacts import scene_at
 from tehl_taichi.runs.flank.mesh import Mesh
-from tehl_taichi.runs.flank.outcomes import Outcome, summaries
+from tehl_taichi.runs.flank.outcomes import Outcome, computed
 from tehl_taichi.runs.flank.specific_film import film_ratios
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.runs.progress import Progress
@@ -44,17 +43,14 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     target = path_of("folder", folder) if folder else first_free_folder(found.name)
     subject = describe(found, target, (on or "pinion") if found.pair else "")
     outcomes = [Outcome(target / f"{one.name}.zarr", reason=WAITING) for one in scenes]
-    Flank.check_writable(target, Flank(target, flank_record(subject, places, scenes, outcomes)))
-    done = 0
-    try:
-        for n, outcome in summaries(scenes, target, workers, threads, progress):
-            outcomes[n], done = outcome, done + 1
-            result = Flank(target, flank_record(subject, places, scenes, outcomes))
-            result.write()
-    except KeyboardInterrupt as stop:
-        raise interrupt(stop, f" after {done} of {len(scenes)} positions; repeat the tehl flank command with --out {target} to "
-                              "resume") from None
-    return result
+
+    def with_outcome(_, n, outcome):
+        outcomes[n] = outcome
+        return Flank(target, flank_record(subject, places, scenes, outcomes))
+
+    made = Flank(target, flank_record(subject, places, scenes, outcomes))
+    Flank.check_writable(target, made)
+    return computed(made, with_outcome, scenes, workers, threads, progress)
 
 
 def all_changes(changes, steady):

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from tehl_taichi.errors import StoreError
+from tehl_taichi.errors import StoreError, interrupt
 from tehl_taichi.runs import passages_left, single_run
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.single_run import check_version
@@ -20,6 +20,22 @@ class Outcome:
     store: Path
     summary: dict | None = None
     reason: str = ""
+
+
+def computed(made, with_outcome, scenes, workers=None, threads=None, progress=None):
+    """The ContactSet `made` with the outcomes of the scenes, written after each; arguments and errors: :func:`summaries`.
+
+    with_outcome(set, n, outcome): the set with the outcome of scene n.
+    """
+    done = 0
+    try:
+        for n, outcome in summaries(scenes, made.folder, workers, threads, progress):
+            made, done = with_outcome(made, n, outcome), done + 1
+            made.write()
+    except KeyboardInterrupt as stop:
+        raise interrupt(stop, f" after {done} of {len(scenes)} contacts; repeat the command with --out {made.folder} to "
+                              "resume") from None
+    return made
 
 
 def summaries(scenes, folder, workers=None, threads=None, progress=None):

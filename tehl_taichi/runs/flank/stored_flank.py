@@ -1,6 +1,5 @@
 """Stored flank: a folder with the positions and their summaries, table, figure."""
 
-from tehl_taichi.errors import StoreError
 from tehl_taichi.runs.contact_set import PositionSet
 from tehl_taichi.runs.flank import flank_columns
 from tehl_taichi.runs.flank.positions import Position
@@ -48,14 +47,6 @@ class Flank(PositionSet):
         if "torque" not in pair:
             return f"{self.name}: flank of body a"
         return f"{self.name}: flank of the {pair['on']}, {pair['torque']:g} N m and {pair['n1']:g} 1/min at the pinion"
-
-    @classmethod
-    def _check_free(cls, folder, own):
-        if (table := folder / f"{cls.KIND}.csv").exists():
-            raise StoreError(f"{table} exists and is not a table of a flank; choose another --out")
-
-    def _complete(self):
-        self.rows  # noqa: B018  whatever is missing is missing now
 
     def _csv(self):
         return flank_columns.csv_text(self.rows)

@@ -18,6 +18,7 @@ from tehl_taichi.report import bearing_page, document, place_sections
 from tehl_taichi.runs.bearing import bearing_figure, bearing_run, bearing_table
 from tehl_taichi.runs.bearing.bearing_source import bearing_source
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
+from tehl_taichi.runs.flank import outcomes
 from tehl_taichi.runs.flank.flank_columns import PASSAGE
 from tehl_taichi.runs.flank.outcomes import Outcome
 from tehl_taichi.runs.open_results import kind
@@ -167,7 +168,7 @@ def test_a_ring_without_a_result_is_named(tmp_path, monkeypatch):
 def test_a_passage_has_all_cores(tmp_path, monkeypatch, options, used):
     """The other ring takes seconds."""
     seen = []
-    monkeypatch.setattr(bearing_run, "summaries", lambda scenes, folder, workers, *rest: seen.append(workers) or iter(()))
+    monkeypatch.setattr(outcomes, "summaries", lambda scenes, folder, workers, *rest: seen.append(workers) or iter(()))
     tehl.bearing("6206", **DUTY, feature=tehl.Feature(**DENT), folder=tmp_path / "b", **options)
     assert seen == [used]
 

@@ -11,7 +11,7 @@ from tehl_cli.main import app
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl
-from tehl_taichi.errors import interrupt
+from tehl_taichi.errors import StoreError, interrupt
 from tehl_taichi.runs import passages_left
 from tehl_taichi.runs.flank import flank_columns, flank_figure, outcomes
 from tehl_taichi.runs.flank.flank_source import flank_source
@@ -64,6 +64,14 @@ def test_a_finished_flank_is_read_not_run(steady, monkeypatch):
     monkeypatch.setattr(case, "run_case", lambda *_, **__: pytest.fail("it ran again"))
     again = tehl.flank("fzg-c", at=("A", "C"), steady=True, changes=SMALL, folder=steady.folder)
     assert again.to_dict() == steady.to_dict()
+
+
+def test_a_folder_of_something_else_is_kept(tmp_path, monkeypatch):
+    monkeypatch.setattr(case, "run_case", lambda job, progress: position(job))
+    (tmp_path / "notes.txt").write_text("mine")
+    with pytest.raises(StoreError, match="is not the folder of a flank"):
+        tehl.flank("fzg-c", at=("C",), steady=True, folder=tmp_path, workers=1)
+    assert [path.name for path in tmp_path.iterdir()] == ["notes.txt"]
 
 
 def test_a_folder_of_another_flank_is_refused_before_anything_runs(steady):
@@ -147,7 +155,7 @@ def test_an_interrupted_flank_says_how_far_it_is(tmp_path, monkeypatch, name, by
         return position(job)
 
     monkeypatch.setattr(case, "run_case", until_c)
-    with pytest.raises(KeyboardInterrupt, match=f"{by} after 3 of 7 positions; repeat .* --out .*/f to resume"):
+    with pytest.raises(KeyboardInterrupt, match=f"{by} after 3 of 7 contacts; repeat .* --out .*/f to resume"):
         tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=1)
     waiting = [(at.point, reason) for at, reason in tehl.open(tmp_path / "f").failed]
     assert [point for point, _ in waiting] == ["A", "C", "D-", "D+", "E"] and "has not run yet" in waiting[1][1]
