@@ -32,8 +32,8 @@ def crack(
     distance: float = number("distance ahead of the tip, m, at which the largest tension sets the direction", 3e-6),
     threshold: Optional[float] = number("threshold of K_I, Pa sqrt(m); the crack stops below it (default: "
                                         "none)"),
-    residual: Optional[str] = typer.Option(None, help="residual stress along x, Pa, or a CSV file with depth (m) and stress "
-                                                      "(Pa)"),
+    residual: Optional[str] = typer.Option(None, help="residual stress along x, Pa, or a CSV file with depth and stress "
+                                                      "(m, Pa or the units in the names of its columns)"),
     face_friction: float = typer.Option(0.0, help="friction coefficient of the closed crack faces"),
     oil: str = typer.Option("dry", help="oil in the crack: dry, film (film pressure above the mouth, an upper bound; a number "
                                         "such as 0.3: this share of it), sealed (trapped when the mouth closes) or flow "

@@ -14,15 +14,15 @@ from tehl_taichi.values.text_table import rows_of, without_empty_end, wrong_leng
 LARGEST = 5e9  # Pa
 STRESS = Number("", "Pa", -LARGEST, LARGEST, usual=-2e8, least=1e5)
 DEPTH = Number("", "m", 0.0, 0.03, usual=1e-4)
-WANTED = "lines with depth in m and stress in Pa; a header line may name the columns"
+WANTED = "lines with depth in m and stress in Pa; a header line may name the columns, and other units (depth_um, stress_MPa)"
 COMMENT = re.compile(r"#.*")
-IN = re.compile(r"\s+in\s+", re.IGNORECASE)  # depth in m; the inch stands last
+IN = re.compile(r"\s+in\s+", re.IGNORECASE)  # depth in m; the inch is last
 BETWEEN = re.compile(r"[\s_()\[\]/,.;:*^-]+")  # words in the name of a column
-STATED = re.compile(r"[/(\[]\s*([^\s/()\[\]]+)\s*(?=[/)\]]|$)")  # one word in brackets or after a slash
+STATED = re.compile(r"[/(\[]\s*\(?([^()\[\]]+?)\s*[)\]]*$")  # the end in brackets or after a slash, as N/mm2
 MICRO = str.maketrans({"\u00b5": "u", "\u03bc": "u"})
 PREFIXES = ("nano", "micro", "milli", "centi", "kilo", "mega", "giga", "inch")  # of units that are written in full
 SAME = {"m": ("m", "metre", "metres", "meter", "meters"), "Pa": ("pa", "pascal")}
-# {unit of a column: words for other units of its quantity, small letters}
+# {unit of a quantity: words for units that are not known, or not in these letters}
 OTHERS = {"m": {"dm", "km", "mil", "mils", "thou", "ft", *map(str.lower, units.LENGTH)} - {"m"},
           "Pa": {"hpa", "ksi", "msi", "tsi", "atm", "n", "kn", "kp", "kgf", "lbf", *map(str.lower, units.PRESSURE)} - {"pa"}}
 
@@ -56,9 +56,7 @@ class ResidualStress:
 
 
 def read(text):
-    """Read the value of `--residual`: a number in Pa, or the name of a CSV file (depth in m, stress in Pa). Raises
-    SceneError.
-    """
+    """Read the value of `--residual`: a number in Pa, or the name of a CSV file. Raises SceneError."""
     try:
         return float(text)
     except ValueError:
@@ -76,7 +74,7 @@ def _rows(lines):
     """Array of rows (depth, stress) of lines [(number, cells)]; a header line may name the columns. Raises ValueError."""
     if not lines:
         raise ValueError("it is empty")
-    columns, count, why, head = (0, 1), 2, "depth and stress", without_empty_end(lines[0][1])
+    columns, count, why, head = ((0, 1.0), (1, 1.0)), 2, "depth and stress", without_empty_end(lines[0][1])
     if not all(map(_is_number, head)):
         columns, count, why, lines = _named(head), len(head), "as in the line of names", lines[1:]
     if not lines:
@@ -84,29 +82,28 @@ def _rows(lines):
     for n, words in lines:
         if refusal := wrong_length(words, count, why):
             raise ValueError(f"line {n} {refusal}")
-    return np.array([[_number(n, words[column]) for column in columns] for n, words in lines], float)
+    return np.array([[_number(n, words[column]) * size for column, size in columns] for n, words in lines], float)
 
 
 def _named(head):
-    """Columns of depth and stress, (number, number), by their names in the header. Raises ValueError, also for units other than
-    m and Pa.
-    """
+    """[(number of the column, size of its unit in SI)] of depth and stress, by the names of the columns. Raises ValueError."""
     found = [[n for n, word in enumerate(head) if any(part in word.lower() for part in parts)]
              for parts in (("depth",), ("stress", "sigma", "residual"))]
     if [len(columns) for columns in found] != [1, 1]:
         raise ValueError(f"its first line, {', '.join(head)[:80]!r}, names no depth and stress")
-    for (column,), unit in zip(found, OTHERS):
-        if own := _other_unit(head[column], unit):
-            raise ValueError(f"its column {head[column]!r} is in {own}, not in {unit}")
-    return tuple(columns[0] for columns in found)
+    return [(column, _size(head[column], unit)) for (column,), unit in zip(found, OTHERS)]
 
 
-def _other_unit(name, unit):
-    """Word in the name of a column that is a unit other than `unit`, "" without one."""
-    words = [word for word in BETWEEN.split(IN.sub(" ", name)) if word]
+def _size(name, unit):
+    """Size of the unit in the name of a column, 1 without one. Raises ValueError for a unit that is not known."""
     stated = [match[1] for match in STATED.finditer(IN.sub("/", name))]
+    words = [word for word in BETWEEN.split(IN.sub(" ", name)) if word]
+    if own := next((word for word in (*stated, *words) if units.known(word, unit)), ""):
+        return units.in_unit(name, f"1 {own}", unit)
     others = [word for word in words if _is_other(word.translate(MICRO).lower(), unit)]
-    return next(iter([*others, *(word for word in stated if word.lower() not in SAME[unit])]), "")
+    if others := [*others, *(word for word in stated if word.lower() not in SAME[unit])]:
+        raise ValueError(f"its column {name!r} is in {others[0]}, which is not one of {', '.join(units.UNITS[unit])}")
+    return 1.0
 
 
 def _is_other(word, unit):

@@ -161,12 +161,27 @@ def test_heads_in_m_and_pa_are_read(tmp_path, head):
 
 @pytest.mark.parametrize("head", ["depth_{}", "depth/{}", "depth ({})", "depth in {}", "depth {}", "depth [{}]"])
 @pytest.mark.parametrize("unit, own", [
-    *((unit, "m") for unit in ("mm", "um", "\u00b5m", "microns", "millimetres", "mil", "in", "inches")),
-    *((unit, "Pa") for unit in ("MPa", "ksi", "psi", "GPa", "bar", "megapascal", "kgf"))])
-def test_another_unit_in_a_head_is_refused(tmp_path, head, unit, own):
+    *((unit, "m") for unit in ("microns", "millimetres", "mil", "inches", "MM")),
+    *((unit, "Pa") for unit in ("ksi", "megapascal", "kgf", "MPA"))])
+def test_an_unknown_unit_in_a_head_is_refused(tmp_path, head, unit, own):
     names = [head.format(unit), "stress"] if own == "m" else ["depth", head.format(unit).replace("depth", "stress")]
-    with pytest.raises(SceneError, match=f"its column '.*' is in {unit}, not in {own}; allowed: lines with depth in m"):
+    with pytest.raises(SceneError, match=f"its column '.*' is in {unit}, which is not one of {own}, .*; allowed: lines with"):
         residual(tmp_path, f"{','.join(names)}\n0,-2e8\n20e-6,1e8\n")
+
+
+@pytest.mark.parametrize("head", ["{}_{}", "{}/{}", "{} ({})", "{} in {}", "{} {}", "{} [{}]", "{}/({})"])
+@pytest.mark.parametrize("depth, micro", [("mm", 1e-3), ("um", 1.0), ("\u00b5m", 1.0), ("nm", 1e3), ("in", 1e-3 / 25.4)])
+@pytest.mark.parametrize("stress, mega", [("MPa", 1.0), ("GPa", 1e-3), ("bar", 10.0), ("psi", 1e6 / 6894.757293168361)])
+def test_known_units_in_heads_are_converted(tmp_path, head, depth, micro, stress, mega):
+    """As in tables of strength, flanks and cams."""
+    heads = f"{head.format('depth', depth)};{head.format('residual stress', stress)}"
+    found = residual(tmp_path, f"{heads}\n0;{-200 * mega}\n{20 * micro};{100 * mega}\n")
+    np.testing.assert_allclose(found, DEPTHS, rtol=1e-12)
+
+
+def test_a_unit_of_two_words_in_brackets(tmp_path):
+    found = residual(tmp_path, "depth (mm) below surface,sigma (N/mm2)\n0,-200\n0.02,100\n")
+    np.testing.assert_allclose(found, DEPTHS, rtol=1e-12)
 
 
 @pytest.mark.parametrize("text", [
