@@ -66,6 +66,15 @@ class Number(Kind):
     def taken(self, where, value):
         return units.in_unit(where, value, self.unit) if isinstance(value, str) else value
 
+    def read(self, where, text, factor=1.0):
+        """Checked number of a cell of a table, times the factor. Raises SceneError."""
+        try:
+            value = float(text) * factor
+        except (TypeError, ValueError):
+            raise checks.SceneError(f"{where} = {shown(text)} is not a number; allowed: {self.allowed} {self.unit}") from None
+        self.check(where, value)
+        return value
+
     def check(self, where, value):
         if self.auto and isinstance(value, str):
             return checks.word(where, value, AUTO, self)

@@ -101,19 +101,11 @@ def _columns(path, names):
 
 
 def _position(path, n, row, columns):
-    SI = {name: _value(f"table {path}, row {n}: {name}", row.get(name), *known) for name, known in columns.items()}
+    SI = {name: declared.read(f"table {path}, row {n}: {name}", row.get(name)) * factor
+          for name, (factor, declared) in columns.items()}
     R = SI.get("R_mm") or 1 / (1 / SI["R_a_mm"] + 1 / SI["R_b_mm"] or math.inf)
     if not 0 < R < math.inf:
         raise SceneError(f"table {path}, row {n}: a reduced radius of {R:g} m makes no contact; allowed: one curved surface at "
                          "least")
     more = {name: value for name, value in row.items() if name and name not in KNOWN}
     return CamPosition(SI["angle_deg"], R, SI["load_N_per_mm"], SI["u_a_m_s"], SI["u_b_m_s"], more)
-
-
-def _value(where, text, factor, declared):
-    try:
-        value = float(text)
-    except (TypeError, ValueError):
-        raise SceneError(f"{where} = {text!r} is not a number; allowed: {declared.allowed} {declared.unit}") from None
-    declared.check(where, value)
-    return value * factor

@@ -1,6 +1,5 @@
 """Positions from a CSV table of a loaded tooth contact analysis."""
 
-import math
 from pathlib import Path
 
 from tehl_taichi.errors import SceneError
@@ -58,20 +57,12 @@ def _check_names(path, names):
 
 
 def _position(path, n, row):
-    SI = {name: _value(f"table {path}, row {n}: {name}", row.get(name), *limits) for name, limits in NEEDED.items()}
+    SI = {name: declared.read(f"table {path}, row {n}: {name}", row.get(name)) * factor
+          for name, (factor, declared) in NEEDED.items()}
     if SI["u_a_m_s"] + SI["u_b_m_s"] == 0:
         raise SceneError(f"table {path}, row {n}: u_a_m_s and u_b_m_s are both 0 m/s: without entrainment there is no film")
     more = {name: value for name, value in row.items() if name and name not in (*NEEDED, POINT, BULK)}
-    bulk = _value(f"table {path}, row {n}: {BULK}", row[BULK], 1.0, TEMPERATURE) if row.get(BULK) else None
+    bulk = TEMPERATURE.read(f"table {path}, row {n}: {BULK}", row[BULK]) if row.get(BULK) else None
     return Position(x_pl=SI["x_pl_mm"], rho_a=SI["R_a_mm"], rho_b=SI["R_b_mm"], u_a=SI["u_a_m_s"], u_b=SI["u_b_m_s"],
                     load=SI["load_N_per_mm"], slip=SI["u_a_m_s"] - SI["u_b_m_s"], point=(row.get(POINT) or "").strip(),
                     more=more, bulk=bulk)
-
-
-def _value(where, text, factor, declared):
-    try:
-        value = float(text)
-    except (TypeError, ValueError):
-        raise SceneError(f"{where} = {text!r} is not a number; allowed: {declared.allowed} {declared.unit}") from None
-    declared.check(where, value if math.isfinite(value) else math.nan)
-    return value * factor

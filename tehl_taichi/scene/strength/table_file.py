@@ -1,6 +1,5 @@
 """Strength tables of users: CSV files with names and units in the first line."""
 
-import math
 from pathlib import Path
 
 from tehl_taichi.disk import files
@@ -81,7 +80,7 @@ def _columns(where, rows):
     for n, name in enumerate(names):
         what, unit = NAMES[name]
         key, units, declared = KNOWN[what]
-        out[key] = [_number(f"{where}, row {at}: {what}", row, n, units[unit], declared) for at, row in enumerate(lines, 1)]
+        out[key] = [declared.read(f"{where}, row {at}: {what}", row[n], units[unit]) for at, row in enumerate(lines, 1)]
     _check_depths(where, out[DEPTH])
     return {DEPTH: out.pop(DEPTH), **out}
 
@@ -101,16 +100,6 @@ def _check_lengths(where, count, lines):
     for at, row in enumerate(lines, 1):
         if refusal := wrong_length(row, count):
             raise SceneError(f"{where}, row {at} {refusal}")
-
-
-def _number(where, row, n, factor, declared):
-    """Number in a row, in SI units. Raises SceneError."""
-    try:
-        value = float(row[n]) * factor
-    except ValueError:
-        raise SceneError(f"{where} = {shown(row[n])} is not a number; allowed: {declared.allowed} {declared.unit}") from None
-    declared.check(where, value if math.isfinite(value) else math.nan)
-    return value
 
 
 def _check_depths(where, depths):
