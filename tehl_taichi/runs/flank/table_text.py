@@ -25,6 +25,8 @@ def rows(path):
         raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
     columns = [_column(head) for head in without_empty_end(heads)]
     names = [name for name, _ in columns]
+    if number := next(filter(units.BARE.fullmatch, names), ""):
+        raise SceneError(f"table {path} begins with the number {number}; allowed: a line of names, without # before it")
     if twice := sorted({name for name in names if name and names.count(name) > 1}):
         raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")
     _check_lengths(path, len(names), lines)

@@ -56,6 +56,11 @@ def test_a_row_that_does_not_fit_its_names_is_refused(tmp_path, cells, said):
             cam(tmp_path, f"{heads}\n{rows}\n")
 
 
+def test_names_in_a_comment_are_none(tmp_path):
+    with pytest.raises(SceneError, match="begins with the number -20; allowed: a line of names, without # before it"):
+        cam(tmp_path, f"# {CAM}")
+
+
 def test_empty_cells_beyond_the_names_count_as_none(tmp_path):
     plain, ended = cam(tmp_path, CAM), cam(tmp_path, CAM.replace("\n", ",,\n"))
     assert plain == ended and not ended[0].more
