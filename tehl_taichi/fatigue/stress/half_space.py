@@ -17,11 +17,12 @@ PHASES = (1, 1, 1, 1, 1j, 1j)  # of the components, beside those of the loads p,
 class HalfSpaceStress:
     """Operator from loads on a uniform grid to the six stresses at one depth.
 
-    x (nx+1,), y (ny+1,) in m, y[0] = 0; a single row means plane strain. nu: Poisson's ratio. line=True: p and q_x of the last
-    row continue to infinity; that part is plane strain (analytic strips), the difference from it a convolution over the
-    rectangles around the nodes. line=False: nothing acts outside the domain. mirrored=True: the domain is the half y >= 0 (p,
-    q_x even in y, q_y odd); mirrored=False: nothing acts at y < 0. depth: m below the surface. rows: slice of the rows to
-    compute (default: all). kind: precision of the transforms; the error of single precision is 3e-7 of the largest stress.
+    x (nx+1,), y (ny+1,) in m, y[0] = 0; a single row means plane strain. nu: Poisson's ratio. line=True: the part
+    :func:`endless` of p and q_x continues to infinity; it is plane strain (analytic strips), the difference from it a
+    convolution over the rectangles around the nodes. line=False: nothing acts outside the domain. mirrored=True: the domain is
+    the half y >= 0 (p, q_x even in y, q_y odd); mirrored=False: it is the whole. depth: m below the surface. rows: slice of the
+    rows to compute (default: all). kind: precision of the transforms; the error of single precision is 3e-7 of the largest
+    stress.
     Raises ValueError for a grid that is not uniform, or a single row without line=True.
     """
 
@@ -29,7 +30,7 @@ class HalfSpaceStress:
         self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
         if self.y.size == 1 and not line:
             raise ValueError("one row in y is a line contact; set line=True")
-        self.depth, self.rows, dx = depth, rows or slice(None), spacing(self.x)
+        self.depth, self.rows, self.mirrored, dx = depth, rows or slice(None), mirrored, spacing(self.x)
         self.size = even_fast_length(2 * self.x.size - 1)
         self.strips = self._strips(rectangle.strip(np.arange(self.x.size) * dx, depth, dx / 2))
         if self.y.size > 1:
@@ -40,7 +41,7 @@ class HalfSpaceStress:
         p, qx, qy = (np.asarray(v, float) for v in (p, qx, qy))
         out, far_p, far_q = np.zeros((6, *p[:, self.rows].shape)), 0.0, 0.0
         if self.line:
-            far_p, far_q = p[:, -1:], qx[:, -1:]
+            far_p, far_q = (endless(load, self.mirrored)[:, None] for load in (p, qx))
             out += np.stack(self._plane_strain(far_p[:, 0], far_q[:, 0]))[:, :, None]
         if self.y.size > 1:
             for n, rest in self.convolution(p - far_p, qx - far_q, qy):
@@ -100,6 +101,12 @@ class _Convolution:
             for load, answer in zip(loads[1:], answers[1:]):
                 spectrum += load * answer
             yield component, w.values(spectrum.view(w.kind), ACROSS[component] < 0, PHASES[component], self.rows)
+
+
+def endless(load, mirrored):
+    """Part (..., nx) of a line load (..., nx, rows) that continues along y: its last row, of a whole domain the mean of both
+    outermost rows, as of the deflection."""
+    return load[..., -1] if mirrored else 0.5 * (load[..., 0] + load[..., -1])
 
 
 def spacing(v):

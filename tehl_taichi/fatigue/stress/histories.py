@@ -144,9 +144,7 @@ class StressHistories:
         low, high = self.centres.min() + first, self.centres.max() + last
         self.pad = tuple(max(0, int(np.ceil(gap / self.dx)) + 2) for gap in (x0 - low, high - x1))
         self.grid_x = x0 + (np.arange(self.reader.x.size + sum(self.pad)) - self.pad[0]) * self.dx
-        # loads of a line contact are mirrored about the first row: the plane of symmetry, or (whole domain) a row far away
-        self.line = self.scene.contact.kind == "line"
-        self.mirrored = self.line or self.reader.y[0] == 0
+        self.line, self.mirrored = self.scene.contact.kind == "line", self.reader.y[0] == 0
 
     def _choose_moments(self):
         """Keep the moments with the feature between fatigue.from_x and to_x (a)."""
@@ -182,7 +180,12 @@ class StressHistories:
         """The thermal stress of this passage; kind: ThermalStress, or ThermalBelow with its shallowest depth (m)."""
         r = self.reader
         grid = r.x, r.y, self.pad[0], self.grid_x.size
-        return self.heat_of(kind, self.rises(r), grid, self.mirrored, self.a, self.surface.speed, *more)
+        return self.heat_of(kind, self.rises(r), grid, self.reflects, self.a, self.surface.speed, *more)
+
+    @property
+    def reflects(self):
+        """Whether temperatures continue as a mirror image before the first row: at the plane of symmetry, and beside a line."""
+        return self.line or self.mirrored
 
     def rises(self, reader):
         """Generator of the surface temperatures above ambient (nx+1, ny+1) K of a reader, at equal steps in time."""

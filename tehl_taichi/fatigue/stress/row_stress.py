@@ -13,7 +13,7 @@ import itertools
 import numpy as np
 
 from tehl_taichi.engine.fftw import DOUBLE, even_fast_length, half, half_back, real_of
-from tehl_taichi.fatigue.stress.half_space import spacing
+from tehl_taichi.fatigue.stress.half_space import endless, spacing
 from tehl_taichi.fatigue.stress.strip_stress import StripStress
 from tehl_taichi.fatigue.stress.unit_loads import ACROSS, CARRIED, HELD, SIGNS, TURNED, along, unit_load, wrapped
 from tehl_taichi.fatigue.stress.workers import pool
@@ -33,16 +33,16 @@ class RowStress:
     def __init__(self, x, y, nu, line, mirrored, depths, rows, kind=DOUBLE, tables=None):
         self.x, self.y, self.nu, self.line = np.asarray(x, float), np.asarray(y, float), float(nu), line
         self.n, self.size, self.rows_used, self.kind = self.x.size, even_fast_length(2 * self.x.size - 1), list(rows), kind
-        self.depths, self.tables, self.deep = depths, tables, bool(np.any(depths))
+        self.depths, self.tables, self.deep, self.mirrored = depths, tables, bool(np.any(depths)), mirrored
         on_mirror = mirrored and self.rows_used == [0]
         self.found = [n for n in (range(6) if self.deep else HELD) if not (on_mirror and ACROSS[n] < 0)]
         lags = np.arange(self.n) * spacing(self.x)
         self.strips = StripStress(self.x, self.nu, depths) if line else None
-        self.rows = self._rows(lags, mirrored) if self.y.size > 1 else None
+        self.rows = self._rows(lags) if self.y.size > 1 else None
 
     def __call__(self, p, qx, qy):
         """Stresses (entries, nx+1, rows, depths, 6) Pa from loads (entries, nx+1, ny+1) Pa."""
-        far = [load[..., -1] if self.line else 0.0 * load[..., -1] for load in (p, qx)]
+        far = [self.line * endless(load, self.mirrored) for load in (p, qx)]
         if self.rows is None:
             return self.strips(*far)[:, :, None]
         found = self._carried(self._waves(zip(p, qx, qy), np.stack(far, axis=-1)))
@@ -90,20 +90,20 @@ class RowStress:
             np.divide(half_back(spectra, self.size, -1, self.kind)[:, : self.n].T, self.size, out=out[n])
         return out.reshape(entries, self.n, len(self.rows_used), -1, len(self.found))
 
-    def _rows(self, lags, mirrored):
+    def _rows(self, lags):
         """Matrices (waves, loads of all rows, rows depths components): transforms of the stresses by unit loads."""
         shape = self.size // 2 + 1, 3, self.y.size, len(self.rows_used), len(self.depths), len(self.found)
         out = np.empty(shape, real_of(self.kind))
 
         def put(one):
             load, n = one
-            out[:, load, :, :, n] = self._rectangles(lags, load, self.depths[n], mirrored)
+            out[:, load, :, :, n] = self._rectangles(lags, load, self.depths[n])
 
         with pool(self.x.size * self.y.size) as workers:
             list(workers.map(put, itertools.product(range(3), range(len(self.depths)))))
         return out.reshape(shape[0], 3 * self.y.size, -1)
 
-    def _rectangles(self, lags, load, depth, mirrored):
+    def _rectangles(self, lags, load, depth):
         """Real transforms (waves, rows of the load, rows of the stress, components): unit load on one rectangle of each row,
         and on its mirror image."""
         count, sign, across = self.y.size, SIGNS[load], (ACROSS * SIGNS[load])[self.found]
@@ -114,7 +114,7 @@ class RowStress:
         for n, row in enumerate(self.rows_used):
             first = reach - 1 - row
             out[:, :, n] = sides[:, first : first + count]
-            if mirrored:
+            if self.mirrored:
                 out[:, 1:, n] += sign * table[:, row + 1 : row + count]
                 out[:, 0, n] *= sign > 0  # an odd load vanishes on the mirror's row
         return out

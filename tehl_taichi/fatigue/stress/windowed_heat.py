@@ -56,7 +56,7 @@ class WindowedHeat:
     def _of_run(self):
         run, nodes, passage = self.reader.base, self.nodes, self.passage
         grid = run.x, run.y, nodes.front, nodes.x.size
-        return passage.heat_of(self.kind, passage.rises(run), grid, passage.mirrored, passage.a, passage.surface.speed)
+        return passage.heat_of(self.kind, passage.rises(run), grid, passage.reflects, passage.a, passage.surface.speed)
 
     def on(self, rows):
         """Function of a tick (number of an equal step) that returns sxx, syy, sxy (columns, rows, 3) Pa on these fine rows."""

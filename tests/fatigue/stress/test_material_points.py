@@ -8,7 +8,9 @@ import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment, findley
+from tehl_taichi.fatigue.stress import row_histories
 from tehl_taichi.fatigue.stress import thermal_stress as ts
+from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.sections import Body
 
@@ -210,3 +212,32 @@ def test_temperatures_fade_out_behind_the_grid():
     fade = T[end : end + cells - 1]
     assert fade[cells // 2 - 1] == pytest.approx(15.0, rel=1e-4) and (np.diff(fade) < 0).all()
     np.testing.assert_allclose(fade + fade[::-1], 30.0, rtol=1e-4)
+
+
+class Sides(Formula):
+    """Both sides of y = 0, with another load on every row; side -1: their mirror image."""
+
+    def __init__(self, scene, side):
+        super().__init__(scene, rows=7)
+        self.y, self.side = np.linspace(-0.5, 0.5, 7) * self.a, side
+
+    def fields(self, n, names):
+        found = super().fields(n, ())
+        across = np.linspace(1.0, 1.3, self.y.size)[:: self.side]
+        found = {name: field * (1.0 if name.startswith("temp") else across) for name, field in found.items()}
+        found["traction_y_a"] = 0.1 * self.side * found["pressure"]
+        return {name: found[name] for name in names} if names else found
+
+
+@pytest.mark.parametrize("depth", [0.0, 0.3])
+def test_a_mirrored_line_has_mirrored_stresses(depth):
+    """Also beside the domain, where both sides continue alike."""
+    scene, signs, found = gear(), np.array([1, 1, 1, -1, 1, -1]), []
+    for side in (1, -1):
+        reader = Sides(scene, side)
+        passage = StressHistories(scene, reader, reader.centres)
+        history = row_histories.histories_of(passage, [depth * passage.a], [(row, False) for row in range(7)])
+        one = passage.history(slice(0, 7), passage.stresses(depth * passage.a), depth=depth * passage.a)
+        found.append(np.array(history)[:, 0])
+        np.testing.assert_allclose(one.reshape(-1, 7, *one.shape[1:]).swapaxes(0, 1), found[-1], atol=3e-6 * np.abs(one).max())
+    np.testing.assert_allclose(found[0], signs * found[1][::-1], atol=3e-6 * np.abs(found[0]).max())

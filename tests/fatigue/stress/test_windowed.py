@@ -55,7 +55,8 @@ class Loads:
     def _of(self, n):
         a, feature = Scales.of(self.scene).a, self.scene.features[0]
         x, y = self.x[:, None], self.y[None, :] - (0.0 if feature.transverse else feature.y)
-        smooth = np.maximum(1 - (x / a) ** 2, 0.0) ** 2 * np.exp(-((self.y[None, :] / (0.9 * a)) ** 8))
+        ends = np.exp(-((self.y[None, :] / (0.9 * a)) ** 8)) if self.scene.symmetric else 1 + 0 * y  # off the axis: endless
+        smooth = np.maximum(1 - (x / a) ** 2, 0.0) ** 2 * ends
         bumps = (self._bump(x - surface.pace * self.feature_x(n) - one.x, 0.0 if one.transverse else self.y - one.y)
                  for surface in self.scene.surfaces for one in surface.features)
         return smooth, sum(bumps), np.sign(y) * np.abs(y) / a if self.y.size > 1 else 0.0
