@@ -123,7 +123,7 @@ def bearing_record(found, folder, loads, speeds, rings, roughness, doubts=()):
         "azimuths_deg": [math.degrees(one) for one in loads.azimuth],
         "contact_angles_deg": [math.degrees(one) for one in loads.angles],
         "loaded": loads.loaded, "axial_load_N": loads.axial_load, "radial_displacement_m": loads.radial,
-        "axial_displacement_m": loads.axial, "cage_speed_1_min": speeds.cage * 30 / math.pi,
+        "axial_displacement_m": loads.axial, "end_play_m": loads.end_play, "cage_speed_1_min": speeds.cage * 30 / math.pi,
         "element_passes_per_s": speeds.element_passes, "static_limit_Pa": LIMITS[which.element],
         "warnings": list(doubts),
         **{ring: _ring_record(which, case, speeds, folder) for ring, case in rings.items()}})

@@ -146,9 +146,11 @@ def facts(bearing):
     """[(label, value)] of quantities of the whole bearing."""
     one, which = bearing.record, bearing.record["geometry"]
     axial = [("axial load", f"{one['axial_load_N']:.1f} N")] if one["axial_load_N"] > 1e-6 * one["ball_load_max_N"] else []
+    along = [("axial displacement", f"{one['axial_displacement_m'] * 1e6:.2f} um")] if axial and "end_play_m" in one else []
+    play = [("end play", f"{one['end_play_m'] * 1e6:.2f} um")] if one.get("end_play_m") else []
     return [("largest load of an element", f"{one['ball_load_max_N']:.1f} N"),
             ("elements under load", f"{one['loaded']} of {which['count']}"), *axial,
-            ("radial displacement", f"{one['radial_displacement_m'] * 1e6:.2f} um"),
+            ("radial displacement", f"{one['radial_displacement_m'] * 1e6:.2f} um"), *along, *play,
             ("speed of the cage", f"{one['cage_speed_1_min']:.1f} 1/min"),
             ("contacts per second of a point of an element", f"{one['element_passes_per_s']:.2f}"), *_torque(one)]
 

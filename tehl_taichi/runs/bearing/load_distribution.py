@@ -18,7 +18,8 @@ FIRST, FARTHEST = 1e-6, 0.02  # m: displacements at which a bracket begins, and 
 @dataclass(frozen=True)
 class LoadDistribution:
     """azimuth: of the elements, the first in the direction of the load (rad); loads: normal to the contacts (N); angles:
-    contact angles (rad); radial, axial: displacement of the inner ring (m); axial_load: N."""
+    contact angles (rad); radial, axial: displacement of the inner ring (m) from the middle of its play, of a bearing with a
+    contact angle from where its elements touch without load; axial_load: N; end_play: m, of balls without a contact angle."""
 
     azimuth: np.ndarray
     loads: np.ndarray
@@ -26,6 +27,7 @@ class LoadDistribution:
     radial: float
     axial: float
     axial_load: float
+    end_play: float
 
     @property
     def largest(self):
@@ -51,7 +53,8 @@ def distribution(bearing, stiffness):
     axial = _axial_displacement(bearing, ring)
     radial = ring.radial_for(axial)
     loads, angles = ring.elements(radial, axial)
-    return LoadDistribution(ring.azimuth, loads, angles, radial, axial, float(np.sum(loads * np.sin(angles))))
+    return LoadDistribution(ring.azimuth, loads, angles, radial, axial - ring.centred, float(np.sum(loads * np.sin(angles))),
+                            abs(2 * ring.centred))
 
 
 class _Displaced:

@@ -115,6 +115,27 @@ def test_clearance_narrows_the_loaded_zone_and_raises_the_largest_load():
     assert [one.largest for one in found] == sorted(one.largest for one in found) and found[-1].largest <= 3000 * (1 + 1e-12)
 
 
+def test_both_displacements_count_from_the_middle_of_the_play():
+    """Without axial load there is none along the axis; end play 2 A sin(alpha_0), cos(alpha_0) = 1 - s/(2 A) (Harris)."""
+    loose = dict(BALLS, clearance=20e-6)
+    A = RollingBearing(**BALLS).groove_distance
+    end_play = 2 * A * math.sin(math.acos(1 - 20e-6 / (2 * A)))
+    for load, axial, along in ((3000.0, 0.0, 0.0), (3000.0, 1e-3, 0.0), (0.0, 1e-3, end_play / 2)):
+        assert solved(RollingBearing(**loose, load=load, axial=axial)).axial == pytest.approx(along, rel=1e-3, abs=1e-9)
+    assert solved(RollingBearing(**loose, load=1e-6)).radial == pytest.approx(10e-6, rel=1e-3)
+    assert solved(RollingBearing(**loose, load=3000.0)).end_play == pytest.approx(end_play)
+    assert solved(RollingBearing(**BALLS, load=3000.0)).end_play == solved(RollingBearing(**ROLLERS, load=3000.0)).end_play == 0
+
+
+def test_clearance_is_a_free_contact_angle():
+    """A bearing with that contact angle counts from where its balls touch, half the end play from the middle."""
+    A = RollingBearing(**BALLS).groove_distance
+    given = {"clearance": 20e-6}, {"contact_angle": math.degrees(math.acos(1 - 10e-6 / A))}
+    loose, touching = (load_distribution.distribution(RollingBearing(**BALLS, **key, load=0.0, axial=900.0), (1e10, 1.5))
+                       for key in given)
+    assert touching.end_play == 0 and touching.axial == pytest.approx(loose.axial - loose.end_play / 2)
+
+
 @pytest.mark.parametrize("keys, power", [(BALLS, 1.5), (ROLLERS, 10 / 9)])
 def test_without_clearance_all_loads_grow_with_the_load(keys, power):
     once, twice = (solved(RollingBearing(**keys, load=load)) for load in (1000.0, 2000.0))
