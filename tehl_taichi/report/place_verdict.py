@@ -17,7 +17,7 @@ from tehl_taichi.fatigue.judged_layers import (
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.number_text import FEW, index, value_text
-from tehl_taichi.report.verdict import LATER, headline, load_too
+from tehl_taichi.report.verdict import LATER, headline, state_and_index, with_load
 from tehl_taichi.runs.flank.flank_columns import error_of as error_in
 from tehl_taichi.values.digits import micrometres
 
@@ -98,8 +98,7 @@ def _overlap(place, top):
 def answer(places, count):
     """(headline, tone, sentences); places: not empty; count: of all positions."""
     top, group = worst(places), overlapping_places(places)
-    searches = [one for place in places for one in place.searches.values()]
-    text, tone = load_too(_headline(places, top, group), searches)
+    text, tone = with_load(_headline(places, top, group), (_smooth(places) or (None, None))[1])
     return text, tone, _sentences(places, top, group, count)
 
 
@@ -149,13 +148,18 @@ def _whole(places):
             f"{index(Fi, error)}{unknown}, {where} at {top.words}.",)
 
 
-def _alone(places):
-    """Sentence about the load limit of the smooth contacts."""
+def _smooth(places):
+    """(place, numbers of its smooth contact) with the largest index, None if none is known."""
     found = [(place, part) for place in places for one in place.searches.values()
              if (part := searched(one).get("contact_alone"))]
-    if not found:
+    return max(found, key=state_and_index, default=None)
+
+
+def _alone(places):
+    """Sentence about the load limit of the smooth contacts."""
+    if not (found := _smooth(places)):
         return ()
-    place, alone = max(found, key=lambda one: one[1]["Fi_max"])
+    place, alone = found
     depth = f"{micrometres(alone['depth_m'])} µm below the surface" if alone["depth_m"] else "at the surface"
     return (f"The smooth contacts alone: Fi = {index(alone['Fi_max'], error_of(alone, 'Fi_max'))} at most, {depth} at "
             f"{place.words}.",)

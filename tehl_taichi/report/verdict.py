@@ -82,7 +82,7 @@ def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
         sentences = ["99th percentile of the index:", *sentences, *_spread(searches)]
     elif early:
         verdict, sentences = _by_resolved_part(parts, worst, sentences, over, feature_wording.position_word(scene))
-    text, tone = load_too(verdict, searches.values())
+    text, tone = with_load(verdict, (_worst_alone(searches) or (None, None))[1])
     return FATIGUE, text, tone, (*_alone_words(searches), *sentences, *_plane(fatigue))
 
 
@@ -158,18 +158,30 @@ def headline(worst, places, known, when=""):
     return f"{no}: the index stays below 1{when}{more}.", "no"
 
 
-def load_too(verdict, searches):
-    """(headline, tone), with a note if the load of one of the summaries of searches exceeds the limit alone."""
-    (text, tone), alone = verdict, [part for one in searches if (part := searched(one).get("contact_alone"))]
-    if tone != "yes" or all(judged(part["Fi_max"], error_of(part, "Fi_max")) != ABOVE for part in alone):
-        return text, tone
-    return f"{text.removesuffix('.')}. The load alone exceeds it, without any feature.", tone
+def with_load(verdict, alone):
+    """(headline, tone), with a note if the load alone exceeds the limit, which answers where `verdict` does not.
+
+    alone: numbers of the smooth contact, or None.
+    """
+    if not alone or judged(alone["Fi_max"], error := error_of(alone, "Fi_max")) != ABOVE:
+        return verdict
+    text, tone = verdict
+    if text.startswith("Yes") or tone == "yes" and error is None:
+        return f"{text.removesuffix('.')}. The load alone exceeds it, without any feature.", tone
+    load, tone = headline(ABOVE, "by the load alone, without any feature", error is not None)
+    return f"{load} Around the feature: {text[0].lower()}{text[1:]}", tone
 
 
 def _worst_alone(searches):
     """(surface, numbers) of the smooth body whose index decides, or None."""
     found = [(name, part) for name, one in searches.items() if (part := searched(one).get("contact_alone"))]
-    return max(found, key=lambda one: (standing(one[1]["Fi_max"], error_of(one[1], "Fi_max")), one[1]["Fi_max"]), default=None)
+    return max(found, key=state_and_index, default=None)
+
+
+def state_and_index(named):
+    """Order of (name, numbers) by what is known of the index, then by the index."""
+    Fi, error = named[1]["Fi_max"], error_of(named[1], "Fi_max")
+    return standing(Fi, error), Fi
 
 
 def _alone_words(searches):

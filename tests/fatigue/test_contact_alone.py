@@ -144,3 +144,24 @@ def test_the_verdict_begins_with_the_load(Fi, tail):
     assert tone == "yes" and headline == "Yes: the fatigue limit is exceeded at the surface" + tail
     assert said[0].startswith(f"The smooth contact alone: Fi = {Fi:.3f} ± 0.010 at 183 µm below surface a, ")
     assert said[1].startswith("At the surface: Fi = 1.400 ± 0.050")
+
+
+BY_LOAD = "yes: the fatigue limit is exceeded by the load alone, without any feature"
+
+
+@pytest.mark.parametrize("error, Fi, of_load, rest", [
+    (0.01, 0.98, f"{BY_LOAD}.", "not decided: the index is 1 within"),
+    (0.01, 0.8, f"{BY_LOAD}.", "no: the index stays below 1."),
+    (None, 0.8, f"probably {BY_LOAD}; the error of this is unknown.", "no: the index stays below 1.")])
+def test_a_load_above_the_limit_answers_where_the_feature_does_not(error, Fi, of_load, rest):
+    alone = {"Fi_max": 1.2, "depth_m": 183e-6, "surface_Fi_max": 0.6, "error": {"Fi_max": error}}
+    found = {"surface": "a", "Fi_max": Fi, "error": {"Fi_max": 0.05}, "surface_angle_deg": 60.0, "contact_alone": alone}
+    _, headline, tone, _ = verdict.of_fatigue(found)
+    assert tone == "yes" and headline.startswith(f"{of_load[0].upper()}{of_load[1:]} Around the feature: {rest}")
+
+
+def test_a_known_load_makes_a_probable_answer_sure():
+    alone = {"Fi_max": 1.2, "depth_m": 183e-6, "surface_Fi_max": 0.6, "error": {"Fi_max": 0.01}}
+    found = {"surface": "a", "Fi_max": 1.4, "surface_angle_deg": 60.0, "contact_alone": alone}
+    assert verdict.of_fatigue(found)[1].startswith("Yes: the fatigue limit is exceeded by the load alone, without any feature. "
+                                                   "Around the feature: probably yes: ")

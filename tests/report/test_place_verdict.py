@@ -73,6 +73,13 @@ def test_the_load_alone_comes_first():
     assert answer(A=search(1.4, 0.1, alone=1.2), B=larger)[0].endswith("The load alone exceeds it, without any feature.")
 
 
+def test_a_load_above_the_limit_answers_where_no_place_does():
+    text, tone, _ = answer(D=search(1.7, None, (0.8, 0.02), alone=1.2), E=search(0.7, 0.02))
+    assert tone == "yes" and text.startswith("Yes: the fatigue limit is exceeded by the load alone, without any feature. ")
+    assert text.endswith("Around the feature: not decided: the index stays below 1 while the grid resolves the pressure, and "
+                         "exceeds 1 later at D.")
+
+
 def test_a_kind_of_warning_is_one_sentence():
     def row(name, *texts):
         lists = {"warnings": list(texts), "warning_codes": ["cells"] * len(texts), "warning_data": [{}] * len(texts)}
