@@ -1,5 +1,7 @@
 """Figure of the way to a verdict: load, stress, strength and index, the last three over the depth."""
 
+import math
+
 import numpy as np
 
 from tehl_taichi.report.plots import Figure, axis, colour, line, marks
@@ -23,9 +25,10 @@ def figures(store, search):
         return []
     body = search.result.numbers.get("surface", "a")
     left = store.residual_fields.get(body)
-    panels = _load(store), _stress(search), _strength(search, left), _verdict(search)
+    panels = _load(store, search), _stress(search), _strength(search, left), _verdict(search)
     traces = [trace for n, found in enumerate(panels, 1) for trace in _panel(n, found)]
-    caption = (f"From the load to the verdict, body {body}: largest pressure of the passage, stress under the "
+    resolved = " while the grid resolves it" * bool(search.on)
+    caption = (f"From the load to the verdict, body {body}: largest pressure of the passage{resolved}, stress under the "
                f"{feature_word(search.scene)} at each depth, limit and residual stress there, and stress over limit.")
     caption += " The residual stress with that of run-in is that under the critical point." * bool(left)
     return [Figure(f"{search.on}chain", caption, traces, _layout(), 640)]
@@ -50,19 +53,29 @@ def _layout():
     return out
 
 
-def _load(store):
-    """Lines of the pressure along the row of lines at the moment of its largest value (of that in a zoom window, where there is
-    one), and of the smooth contact.
+def _load(store, search):
+    """Lines of the pressure along the row of lines at the moment of its largest value among those of the search (of that in a
+    zoom window, where there is one), and of the smooth contact.
     """
     a, moments, window = Scales.of(store.scene).a, Moments(store), ZoomWindow.with_most(store)
     row = window.row(store.y[moments.line]) if window else None
-    worst, X = moments.worst if row is None else window.worst, store.x / a
+    inside = None if row is None else _worst(store, search, window.entries, window.extremes("p_max_Pa"))
+    worst = _worst(store, search, np.arange(1, store.steps), store.scalar("p_max_Pa")[1:]) if inside is None else inside
+    X = store.x / a
     shown = (X >= WINDOW[0]) & (X <= WINDOW[1])
     p = {n: store.fields(n, ("pressure",))["pressure"][shown, moments.line] / 1e9 for n in (worst, 0)}
-    fine = [] if row is None else [line(window.columns(worst) / a, window.fields(worst, ["pressure"])["pressure"][:, row] / 1e9,
-                                        "zoom window", colour(4))]
+    fine = [] if inside is None else [line(
+        window.columns(worst) / a, window.fields(worst, ["pressure"])["pressure"][:, row] / 1e9, "zoom window", colour(4))]
     return [line(X[shown], p[worst], f"with the {feature_word(store.scene)}", colour(0)), *fine,
             line(X[shown], p[0], "smooth contact", GREY, dash="dash")]
+
+
+def _worst(store, search, entries, pressures):
+    """The entry with the largest of these pressures among the moments of the search; None if none of the entries is one."""
+    fatigue, x = search.scene.fatigue, store.scalar("feature_x")[entries] / Scales.of(store.scene).a
+    last = min(fatigue.to_x, search.result.numbers.get("to_x_a", math.inf)) + 1e-9
+    counted = (x >= fatigue.from_x) & (x <= last)
+    return int(entries[np.argmax(np.where(counted, pressures, -np.inf))]) if counted.any() else None
 
 
 def _stress(search):

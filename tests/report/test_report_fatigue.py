@@ -1,12 +1,16 @@
 """Reports of a fatigue search: maps of the index, depths, why an error is not known, what makes the answer less sure."""
 
+from types import SimpleNamespace
+
 import made_results
 import numpy as np
 import pytest
 from made_results import THERMAL
 from read_pages import numbers, page, values
 
+import tehl_taichi as tehl
 from tehl_taichi.march.accuracy import readings
+from tehl_taichi.report import chain_plot
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import Reason
 
@@ -64,6 +68,16 @@ def test_one_figure_leads_from_the_load_to_the_verdict(tmp_path, limits):
     assert x[2][0] == pytest.approx(stress, rel=1e-6) and x[4][0] == pytest.approx(stress / x[3][1], rel=1e-6)
     least = [values(one["y"]).min() for one in panel[1]]  # in the middle, made up as p_H (1 + 0.1 step)
     assert least == pytest.approx([1.4e-9 * Scales.of(THERMAL).p_H, 1e-9 * Scales.of(THERMAL).p_H], rel=0.01)
+
+
+@pytest.mark.parametrize("numbers, until", [({}, 0.0), ({"to_x_a": 0.0}, np.inf)])
+def test_its_load_is_of_the_moments_of_the_search(tmp_path, numbers, until):
+    """The pressures that are made up grow; those after X = 0, the third moment, are not of the search."""
+    store = tehl.open(made_results.run(tmp_path / "a.zarr", search=made_results.fatigue())).store
+    result = made_results.result({**made_results.fatigue(), **numbers})
+    search = SimpleNamespace(result=result, scene=THERMAL.replace(**{"fatigue.to_x": until}), on="")
+    loaded = chain_plot.figures(store, search)[0].traces[0]
+    assert np.min(loaded["y"]) == pytest.approx(1.3e-9 * Scales.of(THERMAL).p_H, rel=0.01)
 
 
 def test_a_plane_that_is_not_at_the_worst_depth_has_its_own_mark(tmp_path):
