@@ -38,6 +38,12 @@ def worst_layer(searches):
     return max(all_layers(deciding(searches)[0]), key=lambda one: (standing(*one[1:]), one[1]))
 
 
+def deciding_point(searches):
+    """(text of the place, part) of the point that decides; of rough surfaces, whose percentile has no place, the worst one."""
+    points = [point for surface, found in _named(deciding(searches)[0]) for point in _points(searched(found), surface)]
+    return max(points, key=lambda one: (judged(one[1]["Fi_max"], error_of(one[1], "Fi_max")), one[1]["Fi_max"]))
+
+
 def _settled(searches):
     """Whether averaged stresses give the errors that the pointwise ones lack, for all deciding numbers."""
     averaged = any(length for one in searches.values() for _, length in material_length.leading(searched(one)))
@@ -46,8 +52,12 @@ def _settled(searches):
 
 def all_layers(searches):
     """The :func:`layers` of each {surface: summary of its search}; with two surfaces the texts name them."""
-    one = len(searches) == 1
-    return [layer for name, found in searches.items() for layer in layers(found, "the surface" if one else f"surface {name}")]
+    return [layer for surface, found in _named(searches) for layer in layers(found, surface)]
+
+
+def _named(searches):
+    """[(text of the surface, summary of its search)]."""
+    return [("the surface" if len(searches) == 1 else f"surface {name}", found) for name, found in searches.items()]
 
 
 def layers(fatigue, surface="the surface"):
@@ -57,8 +67,12 @@ def layers(fatigue, surface="the surface"):
     fatigue = searched(fatigue)
     if fatigue.get("rough"):
         return _percentile_layers(fatigue, surface)
-    return [(f"{_where(part, surface)}{_over(length)}", part["Fi_max"], error_of(part, "Fi_max"))
-            for part, length in material_length.leading(fatigue)]
+    return [(where, part["Fi_max"], error_of(part, "Fi_max")) for where, part in _points(fatigue, surface)]
+
+
+def _points(fatigue, surface):
+    """[(text of the place, part)] at and below the surface."""
+    return [(f"{_where(part, surface)}{_over(length)}", part) for part, length in material_length.leading(fatigue)]
 
 
 def _where(part, surface):

@@ -2,7 +2,17 @@
 
 from types import MappingProxyType
 
-from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, error_of, judged, standing
+from tehl_taichi.fatigue.judged_layers import (
+    ABOVE,
+    BELOW,
+    WITHIN,
+    all_layers,
+    deciding,
+    deciding_point,
+    error_of,
+    judged,
+    standing,
+)
 from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
@@ -83,7 +93,7 @@ def of_fatigue(fatigue, scene=None, beside=MappingProxyType({})):
     elif early:
         verdict, sentences = _by_resolved_part(parts, worst, sentences, over, feature_wording.position_word(scene))
     text, tone = with_load(verdict, (_worst_alone(searches) or (None, None))[1])
-    return FATIGUE, text, tone, (*_alone_words(searches), *sentences, *_plane(fatigue))
+    return FATIGUE, text, tone, (*_alone_words(searches), *sentences, *_plane(fatigue, searches))
 
 
 def _from_pressure(searches):
@@ -197,13 +207,14 @@ def _alone_words(searches):
     return (f"The smooth contact alone: Fi = {Fi} {where}, {SAID[over]}, and {top} at {body}.",)
 
 
-def _plane(fatigue):
+def _plane(fatigue, searches):
+    """Sentence about the critical plane of the point that decides."""
     pits = fatigue.get("pit_angles_deg")
     known = (f" For comparison, pits on gear flanks were found to begin at {pits[0]:g} to {pits[1]:g}° to the surface."
              if pits else "")
-    angle, early = f"{fatigue['surface_angle_deg']:.0f}°", fatigue.get("resolved")
-    both = f"{early['surface_angle_deg']:.0f}° to it, over the whole passage at {angle}" if early else f"{angle} to it"
-    return (f"The critical plane at the surface, on which a crack would begin, is at {both}.{known}",)
+    where, point = deciding_point(searches)
+    return (f"The critical plane {where}, on which a crack would begin, is at {point['surface_angle_deg']:.0f}° to the "
+            f"surface.{known}",)
 
 
 def _of_film(summary, scene):

@@ -36,6 +36,16 @@ def test_the_answer_knows_how_sure_it_is(Fi, error, tone, said):
     assert found == tone and headline.startswith(said)
 
 
+@pytest.mark.parametrize("averaged, where", [
+    ({}, "25 µm below the surface"), ({"error": {"Fi_max": 0.1}}, "9 µm below the surface (stresses averaged over 10 µm)")])
+def test_the_critical_plane_is_of_the_point_that_decides(averaged, where):
+    deep = {"depth_m": 9e-6, "Fi_max": 1.2, "surface_angle_deg": 38.0, **averaged}
+    found = {**made_results.fatigue(0.9, 1.4), "averaged": {**made_results.fatigue(0.8, None), "length_m": 1e-5, "below": deep}}
+    angle = deep["surface_angle_deg"] if averaged else found["below"]["surface_angle_deg"]
+    assert verdict.of_fatigue(found)[-1][-1].startswith(
+        f"The critical plane {where}, on which a crack would begin, is at {angle:.0f}° to the surface.")
+
+
 def test_a_surface_that_holds_over_a_depth_that_does_not():
     layers = judged_layers.layers(made_results.fatigue(0.5, 1.2))
     assert [where for where, *_ in layers] == ["at the surface", "25 µm below the surface"]
