@@ -119,10 +119,18 @@ def material(fatigue):
     default, own_source = type(fatigue)(), fatigue.source.strip().rstrip(".")
     if own_source.lower() not in ("", "example", "examples", default.source):
         limits = fatigue_limits.words(fatigue)
-        return fatigue.source if limits in ("", fatigue.source) else f"{limits} ({own_source})"
+        if limits == fatigue.source:
+            return limits + _example_kappa(fatigue)
+        return f"{limits} ({own_source})" if limits else fatigue.source
     if own_source == default.source and (fatigue.kappa, fatigue.endurance) != (default.kappa, default.endurance):
-        return "no source is given (fatigue.source)"
+        return "no source is given (fatigue.source)" + _example_kappa(fatigue)
     return "example values, replace them by those of your material and name the source (fatigue.source)"
+
+
+def _example_kappa(fatigue):
+    """Text that marks kappa if it is the example value, which neither a limit nor the user replaced."""
+    example = fatigue.kappa == type(fatigue)().kappa and "kappa" not in fatigue_limits.derived_keys(vars(fatigue))
+    return "; this kappa is an example value, give that of your material (fatigue.kappa, or both limits)" * example
 
 
 def numbers(scene):

@@ -106,7 +106,7 @@ def test_limits_in_bending_and_torsion_are_the_source_of_what_follows(made, sear
 
 def test_one_limit_is_told_with_what_became_of_it(made, search):
     text = text_of(tehl.report(tehl.open(made), torsion_limit=400e6))
-    assert "from the fatigue limit 400 MPa in reversed torsion with kappa = 0.3." in text and "417.6" in text
+    assert "from the fatigue limit 400 MPa in reversed torsion with kappa = 0.3;" in text and "417.6" in text
 
 
 @pytest.mark.parametrize("constants, source", [

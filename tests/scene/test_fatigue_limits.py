@@ -54,12 +54,22 @@ def test_what_is_given_anew_replaces_what_it_can_not_stand_beside():
 
 
 def test_what_was_given_is_the_source_unless_one_is_named():
-    assert ONE.fatigue.source == "from the fatigue limit 400 MPa in reversed torsion with kappa = 0.3" == material(ONE.fatigue)
+    assert ONE.fatigue.source == "from the fatigue limit 400 MPa in reversed torsion with kappa = 0.3"
     assert BOTH.fatigue.source == "from the fatigue limits 600 MPa in reversed bending and 390 MPa in torsion"
+    assert material(BOTH.fatigue) == BOTH.fatigue.source and material(ONE.fatigue).startswith(ONE.fatigue.source)
     assert "with kappa = 0.4" in ONE.replace(kappa=0.4).fatigue.source
     own = in_file('torsion_limit = 400e6\nsource = "ISO 6336-5"').fatigue
     assert own.source == "ISO 6336-5"
     assert material(own) == "from the fatigue limit 400 MPa in reversed torsion with kappa = 0.3 (ISO 6336-5)"
+
+
+@pytest.mark.parametrize("changes, example", [
+    ({"bending_limit": 5e8}, True), ({"bending_limit": 5e8, "kappa": 0.2}, False), ({"endurance": 5e8}, True),
+    ({"endurance": 5e8, "kappa": 0.2}, False), ({"kappa": 0.2}, False)])
+def test_the_example_kappa_does_not_pass_for_that_of_a_material(changes, example):
+    assert ("this kappa is an example value" in material(GEAR.replace(**changes).fatigue)) == example
+    named = GEAR.replace(**changes, **{"fatigue.source": "ISO 6336-5"}).fatigue
+    assert "example" not in material(named)
 
 
 @pytest.mark.parametrize("make, said", [
