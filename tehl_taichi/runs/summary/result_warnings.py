@@ -98,7 +98,7 @@ def few_names(names):
 
 def _spoken(name):
     """Text of a name such as "steady h_c_m": "steady h_c"."""
-    return re.sub(r"\w+_\w+", lambda key: short_name(key[0]), name)
+    return re.sub(r"\w+_\w+", lambda key: short_name(key[0]), name.replace("surface_Fi_max", "Fi_max at the surface"))
 
 
 def _unknown(summary):

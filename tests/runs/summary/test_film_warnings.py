@@ -197,3 +197,5 @@ def test_many_numbers_without_an_error_are_one_short_sentence():
                            "steady largest area of solid contact is not known")
     assert line.data["numbers"] == [f"steady {key}" for key in numbers]
     assert judge_of_results.few_names(keys[:6]) == "n0, n1, n2, n3, n4, n5"
+    line, = judge_of_results.unknown_errors(store, {"contact_alone": {"unknown": {"surface_Fi_max": reason}}})
+    assert line.startswith("the error of Fi_max at the surface of the smooth contact is not known")
