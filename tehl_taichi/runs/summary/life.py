@@ -53,11 +53,19 @@ def _parts(found):
     return [(part, "Fi_max") for part, _ in material_length.leading(found)]
 
 
+def number(life):
+    """Text of the number of passages: with its error, or as an interval if the error is as large as the number."""
+    passages, error = life["passages"], life["error"]["passages"]
+    if error is None or error < passages:
+        return with_error(passages, error, digits=2) + " (error unknown)" * (error is None)
+    m, limit = life["exponent"], life["limit_cycles"]
+    Fi_error = life["Fi"] - ((passages + error) / limit) ** (-1 / m)
+    return f"{limit * (life['Fi'] + Fi_error) ** -m:.2g} to {passages + error:.2g}"
+
+
 def words(life):
-    """Text such as 'a crack begins after 5.3e5 ± 0.4e5 passages', without a subject, for a part "life" of a summary."""
-    number, error = life["passages"], life["error"]["passages"]
-    text = with_error(number, error, digits=2) + ("" if error is not None else " (error unknown)")
+    """Text such as 'after 5.3e5 ± 0.4e5 passages', without a subject, for a part "life" of a summary."""
     slope = f"by the exponent {life['exponent']:g} of the S-N curve"
     if life["Fi"] < 1:
-        return f"below the limit, which stands for {life['limit_cycles']:.3g} passages; {slope} after {text}"
-    return f"after {text} passages, {slope}"
+        return f"below the limit, which stands for {life['limit_cycles']:.3g} passages; {slope} after {number(life)}"
+    return f"after {number(life)} passages, {slope}"

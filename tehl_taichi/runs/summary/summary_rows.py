@@ -1,12 +1,13 @@
 """Printed summary of a run: rows of (quantity, value with its error and unit). Needs no taichi."""
 
+from dataclasses import replace
 from types import MappingProxyType
 
 from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.march import quantities
 from tehl_taichi.march.accuracy.coarse_runs import AREA, CONTACT
 from tehl_taichi.march.quantities import HEAT
-from tehl_taichi.runs.summary import limit_meaning
+from tehl_taichi.runs.summary import life, limit_meaning
 from tehl_taichi.runs.summary.search_rows import alone_rows, rows_of_fatigue
 from tehl_taichi.runs.summary.summary_row import SummaryRow, at_depth, quantity, row_of
 from tehl_taichi.values.digits import with_error
@@ -121,7 +122,8 @@ def _life_rows(summary):
     if not (found := summary.get("life")):
         return []
     where = (at_depth(found) if found["depth_m"] else ", at the surface") + f" ({found['surface']})"
-    return [row_of(found, "passages", f"passages to initiation, exponent {found['exponent']:g}", where=where)]
+    row = row_of(found, "passages", f"passages to initiation, exponent {found['exponent']:g}", where=where)
+    return [replace(row, value=life.number(found))]
 
 
 def _meaning_rows(summary):

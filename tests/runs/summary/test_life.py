@@ -31,6 +31,14 @@ def test_the_bar_holds_every_index_within_that_of_the_index():
         assert abs(2e6 * Fi**-9.0 - found["passages"]) <= found["error"]["passages"] * (1 + 1e-12)
 
 
+def test_an_error_as_large_as_the_number_is_an_interval():
+    """The number of passages at both ends of the bar of the index; never a number below zero."""
+    found = life.of_searches({"a": search(1.25, 0.5, 0.15)}, FATIGUE)
+    assert found["error"]["passages"] > found["passages"]
+    ends = f"{2e6 * 1.4**-9.0:.2g} to {2e6 * 1.1**-9.0:.2g}"
+    assert life.words(found).startswith(f"after {ends} passages") and summary_rows.life_rows({"life": found})[0][1] == ends
+
+
 @pytest.mark.parametrize("error", [None, 1.4])
 def test_without_a_bar_of_the_index_that_of_the_passages_is_unknown(error):
     reason = unknown_of({"Fi_max": Reason("exit not resolved", "exit")}) if error is None else {}
