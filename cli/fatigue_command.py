@@ -65,7 +65,7 @@ def _doubts(scene, constants):
 
 
 def _show(result, passages, as_json):
-    from tehl_cli.tables import list_table
+    from tehl_cli.tables import answer, list_table
 
     from tehl_taichi.runs.summary.summary_rows import fatigue_rows, life_rows
 
@@ -75,3 +75,4 @@ def _show(result, passages, as_json):
         print_json({**result.summary, **passages, "by_surface": result.summaries})
     else:
         list_table("fatigue", ("quantity", "value"), [*fatigue_rows(result.summary, beside), *life_rows(passages)])
+        answer({"fatigue": result.summary, "fatigue_by_surface": result.summaries})

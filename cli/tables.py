@@ -34,18 +34,18 @@ def summary_table(summary, printed=()):
     from tehl_taichi.runs.summary.summary_rows import summary_rows, title
 
     _table(title(summary), summary_rows(summary))
-    _answer(summary)
+    answer(summary)
     warning_lines([sentence for sentence in summary.get("warnings", []) if sentence not in printed])
 
 
-def _answer(summary):
+def answer(summary):
     """Print the answer of a passage, as in its report."""
     from tehl_taichi.fatigue.judged_surfaces import others
     from tehl_taichi.report.verdict import of_fatigue
 
     if "fatigue" in summary:
-        question, answer, *_ = of_fatigue(summary["fatigue"], beside=others(summary))
-        put(f"{question} {answer}")
+        question, headline, *_ = of_fatigue(summary["fatigue"], beside=others(summary))
+        put(f"{question} {headline}")
 
 
 def warning_lines(sentences):

@@ -5,6 +5,7 @@ import math
 from pathlib import Path
 from types import SimpleNamespace
 
+import made_results
 import numpy as np
 import pytest
 from commands import here
@@ -70,6 +71,13 @@ def test_every_option_of_fatigue_and_of_report_arrives_alone(monkeypatch, small,
     words, wanted = typed({option: ASKED[option]})
     assert_own(caught(monkeypatch, "tehl_taichi.runs.stored_run.Run.fatigue", ["fatigue", small, *words])[1], wanted)
     assert_own(caught(monkeypatch, "tehl_taichi.report", ["report", small, *words])[1], wanted)
+
+
+def test_a_search_with_other_constants_ends_with_its_answer(monkeypatch, small):
+    found = made_results.result(made_results.fatigue(1.4, 0.9))
+    monkeypatch.setattr("tehl_taichi.runs.stored_run.Run.fatigue", lambda *_, **__: found)
+    *_, last = here("fatigue", small, "--endurance", "4e8").stdout.splitlines()
+    assert last.startswith("Does a fatigue crack start here? Probably yes: the fatigue limit is exceeded at the surface; ")
 
 
 @pytest.mark.parametrize("left_out", [("--bending-limit", "--torsion-limit"), ("--kappa", "--endurance")])
@@ -262,7 +270,7 @@ def test_a_run_goes_on_from_the_last_checkpoint_that_counts(tmp_path):
 
 def search(Fi, below, error=None, early=None):
     found = {"Fi_max": Fi, "surface_angle_deg": 57.0, "error": {"Fi_max": error},
-             "below": {"Fi_max": below, "depth_m": 25e-6, "error": {"Fi_max": error}}}
+             "below": {"Fi_max": below, "depth_m": 25e-6, "surface_angle_deg": 40.0, "error": {"Fi_max": error}}}
     return {**found, **({"resolved": {**search(*early, error), "to_x_a": 0.5}} if early else {})}
 
 
