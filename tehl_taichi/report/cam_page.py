@@ -55,7 +55,8 @@ def answer(cam):
         headline, tone, sentences = place_verdict.answer(places, len(cam.rows))
         return Answer("At which angle does a fatigue crack start?", headline, tone, (*sentences, thin), doubts)
     headline = thin or "No answer: no angle has a result."
-    return Answer("How thick is the film over the cycle?", headline, "none", (), doubts)
+    alone = place_verdict.of_smooth_contacts(cam.rows, _words, _words)
+    return Answer("How thick is the film over the cycle?", headline, "none", alone, doubts)
 
 
 def _thinnest(cam):

@@ -94,7 +94,7 @@ def _of_films(flank, doubts):
         return Answer(question, "No answer: no position converged.", "none", (), doubts)
     text, at = thinnest
     return Answer(question, f"The smallest film is {text}, at {_where(at)}.", "none",
-                  ("No feature passes, so the fatigue index is not computed.", *film_words(flank)), doubts)
+                  (*place_verdict.of_smooth_contacts(flank.rows, short_name, _where), *film_words(flank)), doubts)
 
 
 def figures(flank):

@@ -58,6 +58,6 @@ def scene(store, words):
 
 def limit(store):
     """Sentences about the meaning of Fi = 1; () without an index."""
-    if not store or "fatigue" not in store.summary:
+    if not store or not {"fatigue", "contact_alone"} & store.summary.keys():
         return ()
     return (*limit_words(store.scene), *filter(None, [limit_meaning.sentence(store.summary, store.scene.fatigue)]))

@@ -165,6 +165,15 @@ def _alone(places):
             f"{place.words}.",)
 
 
+def of_smooth_contacts(rows, name, words):
+    """Sentence about the index of steady contacts, over which no feature passes; () without one. Arguments: as in
+    :func:`judged_places`.
+    """
+    alone = [((summary or {}).get("contact_alone_by_surface", {}), at) for at, _, summary in rows]
+    return _alone([JudgedPlace(n, name(at), words(at), {surface: {"contact_alone": part} for surface, part in found.items()})
+                   for n, (found, at) in enumerate(alone)])
+
+
 def thinnest(rows):
     """(text of the smallest steady film with its error, its place); None without results. rows: (place, Hertz pressure, summary
     or None).

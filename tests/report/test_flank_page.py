@@ -53,6 +53,18 @@ def test_lambda_or_why_there_is_none(flank):
     assert "its permissible value is not given" in flank_page.film_words(Flank(flank, record))[0]
 
 
+def test_steady_positions_say_what_their_smooth_bodies_bear(flank):
+    """No feature passes, but the index of the smooth contact is known."""
+    record = Flank.open(flank).to_dict()
+    alone = made_results.fatigue()["contact_alone"] | {"error": {"Fi_max": 0.01}}
+    for one, Fi in zip(record["positions"], (0.8, 0.9)):
+        del one["summary"]["fatigue"]
+        one["summary"]["contact_alone_by_surface"] = {"a": alone | {"Fi_max": Fi}, "b": alone | {"Fi_max": Fi - 0.2}}
+    headline, first = (answer := flank_page.answer(Flank(flank, record))).headline, answer.sentences[0]
+    assert headline.startswith("The smallest film is")
+    assert first.startswith("The smooth contacts alone: Fi = 0.900 ± 0.010 at most, 180 µm below the surface at C, x_pl = ")
+
+
 def test_pages_of_positions_are_written_and_linked(flank, tmp_path):
     out = tmp_path / "elsewhere" / "page.html"
     out.parent.mkdir()

@@ -192,6 +192,18 @@ def test_a_follower_at_rest_has_a_film():
     assert at.srr == 2.0 and at.without_film == ""
 
 
+def test_a_cam_without_features_says_what_its_smooth_bodies_bear(tmp_path, monkeypatch):
+    def work(job, *_):
+        steady = {"h_c_m": 2e-7, "h_min_m": 1e-7, "error": {"h_min_m": 2e-8}}
+        alone = {"a": {"Fi_max": 0.9, "depth_m": 70e-6, "error": {"Fi_max": 0.01}}}
+        summary = {"steady": steady, "contact_alone_by_surface": alone, "version": "0.9", "wall_s": 2.0}
+        return {**position(job), "summary": summary}
+
+    monkeypatch.setattr(case, "run_case", work)
+    answer = cam_page.answer(tehl.cam(table(tmp_path), folder=tmp_path / "c", workers=1))
+    assert answer.sentences == ("The smooth contacts alone: Fi = 0.900 ± 0.010 at most, 70 µm below the surface at -20 deg.",)
+
+
 def test_bars_of_the_figure_are_in_the_unit_of_their_line(tmp_path, monkeypatch):
     """A fifth of every film."""
     def work(job, *_):
