@@ -41,7 +41,7 @@ def worst_layer(searches):
 def deciding_point(searches):
     """(text of the place, part) of the point that decides; of rough surfaces, whose percentile has no place, the worst one."""
     points = [point for surface, found in _named(deciding(searches)[0]) for point in _points(searched(found), surface)]
-    return max(points, key=lambda one: (judged(one[1]["Fi_max"], error_of(one[1], "Fi_max")), one[1]["Fi_max"]))
+    return max(points, key=lambda one: (standing(one[1]["Fi_max"], error_of(one[1], "Fi_max")), one[1]["Fi_max"]))
 
 
 def _settled(searches):

@@ -98,7 +98,8 @@ def _overlap(place, top):
 def answer(places, count):
     """(headline, tone, sentences); places: not empty; count: of all positions."""
     top, group = worst(places), overlapping_places(places)
-    text, tone = with_load(_headline(places, top, group), (_smooth(places) or (None, None))[1])
+    _, alone = max(_smooth(places), key=state_and_index, default=(None, None))
+    text, tone = with_load(_headline(places, top, group), alone)
     return text, tone, _sentences(places, top, group, count)
 
 
@@ -149,17 +150,16 @@ def _whole(places):
 
 
 def _smooth(places):
-    """(place, numbers of its smooth contact) with the largest index, None if none is known."""
-    found = [(place, part) for place in places for one in place.searches.values()
-             if (part := searched(one).get("contact_alone"))]
-    return max(found, key=state_and_index, default=None)
+    """[(place, numbers of its smooth contact)] of both bodies."""
+    return [(place, part) for place in places for one in place.searches.values()
+            if (part := searched(one).get("contact_alone"))]
 
 
 def _alone(places):
     """Sentence about the load limit of the smooth contacts."""
     if not (found := _smooth(places)):
         return ()
-    place, alone = found
+    place, alone = max(found, key=lambda one: one[1]["Fi_max"])
     depth = f"{micrometres(alone['depth_m'])} µm below the surface" if alone["depth_m"] else "at the surface"
     return (f"The smooth contacts alone: Fi = {index(alone['Fi_max'], error_of(alone, 'Fi_max'))} at most, {depth} at "
             f"{place.words}.",)

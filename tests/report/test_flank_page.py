@@ -53,7 +53,7 @@ def test_lambda_or_why_there_is_none(flank):
     assert "its permissible value is not given" in flank_page.film_words(Flank(flank, record))[0]
 
 
-def test_steady_positions_say_what_their_smooth_bodies_bear(flank):
+def test_steady_positions_give_the_index_of_their_smooth_contacts(flank):
     """No feature passes, but the index of the smooth contact is known."""
     record = Flank.open(flank).to_dict()
     alone = made_results.fatigue()["contact_alone"] | {"error": {"Fi_max": 0.01}}

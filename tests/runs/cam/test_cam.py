@@ -192,7 +192,7 @@ def test_a_follower_at_rest_has_a_film():
     assert at.srr == 2.0 and at.without_film == ""
 
 
-def test_a_cam_without_features_says_what_its_smooth_bodies_bear(tmp_path, monkeypatch):
+def test_a_cam_without_features_gives_the_index_of_its_smooth_contacts(tmp_path, monkeypatch):
     def work(job, *_):
         steady = {"h_c_m": 2e-7, "h_min_m": 1e-7, "error": {"h_min_m": 2e-8}}
         alone = {"a": {"Fi_max": 0.9, "depth_m": 70e-6, "error": {"Fi_max": 0.01}}}
