@@ -26,7 +26,6 @@ from tehl_taichi.scene import (
     zoom_room,
 )
 from tehl_taichi.scene.feature import Feature
-from tehl_taichi.scene.named_steels import with_steel_numbers
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.sections import (
     AUTO,
@@ -51,7 +50,7 @@ from tehl_taichi.scene.unit_texts import in_units
 from tehl_taichi.values.checks import build, file_name, nearest, number
 from tehl_taichi.values.coded_text import CodedText, Option, options_of
 from tehl_taichi.values.coerce import shown
-from tehl_taichi.values.quantity import Text
+from tehl_taichi.values.quantity import Text, known_keys
 from tehl_taichi.values.unit_hints import hint
 
 TOP = {"name": Text("name of the scene and its stores", 100),  # the keys above all tables
@@ -63,6 +62,7 @@ AT_REST = 0.01  # of the mean speed
 MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
 
 
+@known_keys
 @dataclass(frozen=True)
 class Scene:
     """A contact, its bodies, oil and motion, and how it is computed; SI units.
@@ -511,7 +511,7 @@ class Scene:
 def _bodies(values):
     if not isinstance(values, dict) or set(values) - {"a", "b"}:
         raise SceneError(f"[bodies] may only hold the tables [bodies.a] and [bodies.b], not {shown(values)}")
-    return {f"body_{key}": build(Body, with_steel_numbers(value), f"bodies.{key}", "bodies") for key, value in values.items()}
+    return {f"body_{key}": build(Body, value, f"bodies.{key}", "bodies") for key, value in values.items()}
 
 
 def _features(values):

@@ -5,7 +5,7 @@ import dataclasses
 from tehl_taichi.errors import SceneError
 from tehl_taichi.laws import viscosity
 from tehl_taichi.scene import data_sheet, oils
-from tehl_taichi.scene.oil import Oil
+from tehl_taichi.scene.oil import NO_SOURCE, Oil
 from tehl_taichi.values import checks
 from tehl_taichi.values.checks import build, nearest
 from tehl_taichi.values.coerce import plain
@@ -13,7 +13,6 @@ from tehl_taichi.values.registry import collect
 
 NAMED = collect(oils, oils.NamedOil)
 OILS = {name: entry.oil for name, entry in NAMED.items()}
-NO_SOURCE = "not given"
 
 
 def from_values(values):

@@ -8,6 +8,7 @@ from tehl_taichi.laws.law import declared, section
 from tehl_taichi.scene import data_sheet
 from tehl_taichi.values.quantity import check, choice, documented, kinds, text
 
+NO_SOURCE = "not given"
 _OIL: Any = section(
     "_OIL", name=text("reference-pao", "name (`tehl oils` lists the named oils)"),
     source=text("PAO of Everitt, licentiate thesis 2018; density after Larsson et al. 2000", "source of the numbers",
@@ -26,20 +27,36 @@ def in_one_temperature(expansion, keeps):
     return "always" if keeps and expansion == "thermal" else expansion
 
 
+def with_named_numbers(values):
+    """Values of an oil, completed with the numbers of the oil that they name. The source of a new name is not that of the
+    reference oil.
+    """
+    if "name" not in values:
+        return {"name": data_sheet.NAME, **values} if data_sheet.has_sheet(values) else values
+    from tehl_taichi.scene.named_oils import NAMED  # it makes Oils
+
+    name = values["name"]
+    if isinstance(name, str) and name in NAMED:
+        return {"source": NAMED[name].source, **NAMED[name].numbers, **values}
+    return values if data_sheet.has_sheet(values) else {"source": NO_SOURCE, **values}
+
+
 @documented
 @dataclass(frozen=True, repr=False)
 class Oil(_OIL):
     """Lubricant; each law has its own numbers, and numbers of other laws have no effect.
 
-    `tehl laws` lists the laws and their numbers. `nu_40` and `nu_100` of a data sheet determine the numbers of the viscosity
-    law.
+    `tehl laws` lists the laws and their numbers. The `name` of a known oil (`tehl oils`) gives all numbers that are not given.
+    `nu_40` and `nu_100` of a data sheet determine the numbers of the viscosity law.
 
     Examples
     --------
     >>> import tehl_taichi as tehl
-    >>> tehl.Oil(eta0=0.02).eta0
-    0.02
+    >>> tehl.Oil(eta0=0.02).eta0, tehl.Oil(name="mineral-vg220").source[:20]
+    (0.02, 'mineral, made of ISO')
     """
+
+    _completed = staticmethod(with_named_numbers)
 
     if TYPE_CHECKING:  # keys come from the registries
         expansion: str

@@ -14,7 +14,7 @@ from tehl_taichi.laws.law import declared, section
 from tehl_taichi.laws.solid_friction import BOUNDARY
 from tehl_taichi.scene import fatigue_limits
 from tehl_taichi.scene.fatigue_limits import LARGEST_LIMIT, LEAST_LIMIT, USUAL_LIMIT
-from tehl_taichi.scene.named_steels import STEELS
+from tehl_taichi.scene.named_steels import STEELS, with_steel_numbers
 from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.scene.strength.profiles import WORDS as PROFILES
 from tehl_taichi.values.checks import build
@@ -91,8 +91,7 @@ class Contact:
 class Body:
     """An elastic half-space; default: steel (Everitt 2018).
 
-    alpha is a handbook value of bearing and gear steels. A named steel (`tehl steels`) gives all numbers that a scene file or a
-    change does not set; in Python: Body(**STEELS["100Cr6"].numbers, material="100Cr6").
+    alpha is a handbook value of bearing and gear steels. A named steel (`tehl steels`) gives all numbers that are not given.
 
     Examples
     --------
@@ -111,6 +110,7 @@ class Body:
     yield_stress: float = quantity(0.0, "Pa", "uniaxial yield stress, with which the von Mises stress is compared; 0: not "
                                               "given, 2.2 GPa of hardened bearing steel", 0.0, 1e11, usual=2.2e9, least=1e6)
     hardening: str = choice("perfect", "hardening law of steel that yields in run-in (`tehl laws`)", tuple(HARDENINGS))
+    _completed = staticmethod(with_steel_numbers)
 
     def __post_init__(self):
         check(self, "bodies")
@@ -119,7 +119,7 @@ class Body:
 @documented
 @dataclass(frozen=True, repr=False)
 class Operation:
-    """Surface speeds; u_a and u_b in m/s may replace u_m and srr.
+    """Surface speeds; in a file or a change u_a and u_b in m/s may replace u_m and srr.
 
     Examples
     --------

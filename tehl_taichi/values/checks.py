@@ -140,10 +140,14 @@ def build(cls, values, section, general=None):
     known = [f.name for f in dataclasses.fields(cls)]
     for key in values:
         if key not in known:
-            raise SceneError(f"unknown key {section}.{key_shown(key)}{nearest(key, known)}; "
-                             f"{known_names(known, ALL_KEYS)}")
+            raise SceneError(unknown_key(section, key, known))
     with messages_about(section, general or section):
         return cls(**values)
+
+
+def unknown_key(section, key, known):
+    """Message about a key that a section does not have."""
+    return f"unknown key {section}.{key_shown(key)}{nearest(key, known)}; {known_names(known, ALL_KEYS)}"
 
 
 @contextlib.contextmanager

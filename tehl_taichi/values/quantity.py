@@ -5,6 +5,8 @@ Input checks, the template of `tehl new` and the documentation read the same dec
 """
 
 import dataclasses
+import functools
+import inspect
 import math
 from dataclasses import dataclass
 
@@ -279,12 +281,28 @@ def kinds(cls):
 
 def documented(cls):
     """Class decorator: adds the declared keys to the docstring as parameters; the repr shows the keys that differ from their
-    defaults.
+    defaults; an unknown key is refused (:func:`known_keys`).
     """
     about, mark, examples = cls.__doc__.partition("\n\n    Examples\n")
     rows = "".join(f"\n    {key} : {_default(cls, key)}\n        {_meaning(kind)}" for key, kind in kinds(cls).items())
     cls.__doc__ = f"{about.rstrip()}\n\n    Parameters\n    ----------{rows}{mark}{examples}"
     cls.__repr__ = _changed
+    return known_keys(cls)
+
+
+def known_keys(cls):
+    """Class decorator of a dataclass: its constructor refuses an unknown key, and names the nearest one. A static method
+    `_completed` of the class adds values that follow from the given ones.
+    """
+    made, signature, complete = cls.__init__, inspect.signature(cls), getattr(cls, "_completed", dict)
+
+    @functools.wraps(made)
+    def init(self, *values, **given):
+        if unknown := given.keys() - signature.parameters.keys():
+            raise checks.SceneError(checks.unknown_key(cls.__name__, min(unknown), list(signature.parameters)))
+        made(self, **complete(signature.bind(*values, **given).arguments))
+
+    cls.__init__ = init
     return cls
 
 

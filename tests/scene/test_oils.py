@@ -7,7 +7,7 @@ from values.test_registry import hold
 
 from tehl_taichi.scene import SceneError, scene
 from tehl_taichi.scene.data_sheet import KEYS
-from tehl_taichi.scene.named_oils import NAMED, OILS, from_values
+from tehl_taichi.scene.named_oils import NAMED, NO_SOURCE, OILS, from_values
 from tehl_taichi.scene.oil import Oil
 
 
@@ -24,6 +24,18 @@ def test_the_reference_oil_is_that_of_scenes():
     """At 90 deg C log10 eta = 4.57 (5/3)^-1.25 - 4.2 = -1.7867."""
     assert OILS["reference-pao"] == Oil()
     assert NAMED["reference-pao"].viscosity(0.0, 90.0) == pytest.approx(10**-1.7867, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", OILS)
+def test_an_oil_made_in_python_has_the_numbers_of_its_name(name):
+    assert Oil(name=name) == Oil(name) == OILS[name] and Oil(name=name).source == OILS[name].source
+    assert Oil(name=name, k0=0.2) == from_values({"name": name, "k0": 0.2})
+
+
+def test_a_new_oil_made_in_python_has_not_the_source_of_the_reference_oil():
+    assert Oil(name="mine", G0=4.5).source == NO_SOURCE
+    sheet = {"nu_40": 220e-6, "nu_100": 19e-6}
+    assert Oil(**sheet) == from_values(sheet) and Oil(**sheet).name == "data-sheet"
 
 
 def test_an_unknown_name_is_refused_with_those_that_are_known():

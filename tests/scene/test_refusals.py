@@ -6,6 +6,7 @@ import tomllib
 
 import pytest
 
+import tehl_taichi as tehl
 from tehl_taichi.runs.sweep import study_file
 from tehl_taichi.scene import Scene, SceneError, scene, scene_file
 from tehl_taichi.scene.feature import Feature
@@ -92,6 +93,16 @@ def test_files_that_python_cannot_parse(text, words, tmp_path):
 ])
 def test_every_number_of_an_oil(key, value, low, high):
     refused(lambda: Oil(**{key: value}), f"oil.{key} = ", f"at least {low:g}", f"at most {high:g}")
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda: tehl.Contact(lod=1e6), ("unknown key Contact.lod", "did you mean 'load'", "moes_M")),
+    (lambda: tehl.Scene(feature=[]), ("unknown key Scene.feature", "did you mean 'features'")),
+    (lambda: tehl.Feature(lebel="mean"), ("unknown key Feature.lebel", "did you mean 'level'")),
+    (lambda: tehl.GearPair(tork=3), ("unknown key GearPair.tork", "did you mean 'torque'")),
+])
+def test_an_unknown_key_of_a_class_names_the_nearest_one(call, words):
+    refused(call, *words)
 
 
 @pytest.mark.parametrize("field", dataclasses.fields(Oil), ids=lambda field: field.name)

@@ -20,6 +20,7 @@ def test_every_named_steel_holds_and_brings_all_its_numbers(name):
     assert {*free, *STEELS[name].numbers} == set(kinds(Body))
     changed = scene("gear").replace(**{"bodies.b.material": name})
     assert changed.body_b == NAMED[name] and changed.body_a == Body() and not changed.warnings()
+    assert Body(material=name) == Body(name) == NAMED[name] and Body(material=name, k=40.0).c == NAMED[name].c
 
 
 def test_a_scene_file_names_a_steel(tmp_path):
