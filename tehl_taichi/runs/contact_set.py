@@ -76,11 +76,11 @@ class ContactSet:
 
     @classmethod
     def _check_kind(cls, folder):
-        """Refuse the folder of a set of another kind."""
-        from tehl_taichi.runs.open_results import RUN, kind
+        """Refuse the store of a run or a study, and the folder of a set of another kind."""
+        from tehl_taichi.runs.open_results import kind
 
-        if (other := kind(folder)) not in (RUN, cls.KIND):
-            raise StoreError(f"{folder} exists and is the folder of a {other}; choose another --out")
+        if any(os.path.lexists(folder / mark) for mark in links.MARKS):
+            raise StoreError(f"{folder} exists and is the folder of a {kind(folder)}; choose another --out")
 
     @classmethod
     def _check_free(cls, folder, own):

@@ -31,6 +31,13 @@ TABLE = """x_pl_mm, load_N_per_mm, R_a_mm, R_b_mm, u_a_m_s, u_b_m_s, point, note
 """
 
 
+def test_the_store_of_a_run_does_not_become_a_flank(tmp_path):
+    """`tehl show`, `resume` and `run --force` would take it for a flank."""
+    (tmp_path / "zarr.json").write_text("{}")
+    with pytest.raises(tehl.StoreError, match="exists and is the folder of a run; choose another --out"):
+        tehl.Flank.check_writable(tmp_path)
+
+
 @pytest.fixture(scope="module")
 def steady(taichi_cpu, tmp_path_factory):
     """The steady films of A and C, with temperatures."""
