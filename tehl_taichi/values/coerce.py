@@ -6,15 +6,21 @@ import reprlib
 
 import numpy as np
 
+from tehl_taichi.values.estimate import Quantity
+
 LINES = re.compile(r"\n\s*")  # between rows of an array
 DEEPEST = 8  # lists inside lists: nothing in a scene needs more than two
 
 
 def plain(value, depth=0):
-    """`value` without numpy: its scalars as bool, int, float or str, arrays and lists as tuples, paths as text."""
-    if isinstance(value, (np.generic, np.ndarray)):
-        value = float(value) if isinstance(value, np.longdouble) else value.tolist()
-    if isinstance(value, (list, tuple)) and depth < DEEPEST:
+    """`value` without numpy: its scalars as bool, int, float or str, arrays (also of pandas or xarray), lists and ranges as
+    tuples, paths as text. A :class:`Quantity` becomes a text with its unit, without one its number.
+    """
+    if isinstance(value, Quantity):
+        value = f"{float(value)!r} {value.unit}" if value.unit else value.value
+    if hasattr(value, "__array__"):
+        value = float(value) if isinstance(value, np.longdouble) else np.asarray(value).tolist()
+    if isinstance(value, (list, tuple, range)) and depth < DEEPEST:
         return tuple(plain(item, depth + 1) for item in value)
     return os.fspath(value) if isinstance(value, os.PathLike) else value
 

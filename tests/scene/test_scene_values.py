@@ -8,10 +8,12 @@ import tomllib
 import numpy as np
 import pytest
 
+from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.scene import BUILT_INS, Scene, SceneError, scene, scene_file
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.sections import Contact, Grid, Operation, Thermal
+from tehl_taichi.values.estimate import Quantity
 
 DEEP = []
 for _ in range(2000):
@@ -107,6 +109,30 @@ def test_numpy_values_in_the_parts():
         for value in vars(part).values():
             assert type(value) in (float, int, bool, str, tuple) and not isinstance(value, np.generic)
     assert type(Operation(u_m=8).u_m) is float and Contact(load=10**6) == Contact(load=1e6)
+
+
+QUANTITIES = [("load", 1.1e6, "N/m"), ("hertz_pressure", 1.2345678901234567e9, "Pa"), ("temperature", 81.23456789, "degC"),
+              ("srr", 0.1, ""), ("grid.nx", 128, ""), ("height", 1.1e-6, "m")]
+
+
+@pytest.mark.parametrize("key, value, unit", QUANTITIES, ids=[key for key, *_ in QUANTITIES])
+def test_a_number_of_a_run_becomes_a_value_in_its_unit(key, value, unit):
+    assert scene("gear").replace(**{key: Quantity(value, 0.1 * value, unit)}) == scene("gear").replace(**{key: value})
+    with pytest.raises(SceneError, match="'K m' is no unit of it|is not a whole number"):
+        scene("gear").replace(**{key: Quantity(value, None, "K m")})
+
+
+def test_a_number_without_a_value_is_refused():
+    with pytest.raises(SceneError, match="operation.u_m = 'nan m/s' is not a number"):
+        scene("gear").replace(speed=Quantity(math.nan, None, "m/s", "not resolved"))
+
+
+def test_lists_of_other_packages_and_ranges():
+    array = pytest.importorskip("xarray").DataArray([1, 2], {"n": [0, 1]}, name="numbers")
+    for given in (array, array.to_series(), range(1, 3)):
+        assert plan(scene("gear"), {"srr": given}).axes[0].rows == ((1,), (2,))
+    for given in (array * 1e-5, array.to_series() * 1e-5):
+        assert scene("gear").replace(**{"fatigue.depths": given}).fatigue.depths == (1e-5, 2e-5)
 
 
 @pytest.mark.parametrize("name", ["x", "my scene", "ä-ö", 'quo"ted', "it's", "-", "3", "#", "日本"])

@@ -205,6 +205,9 @@ def plan(scene, over, samples=None, seed=None):
     """
     if not isinstance(over, Mapping):
         raise SceneError(f"over = {shown(over)} must be a dictionary {{key: values}}, as in {{'srr': [0.0, 0.1]}}")
+    for keys in over:
+        if not (isinstance(keys, str) or isinstance(keys, tuple) and keys and all(isinstance(key, str) for key in keys)):
+            raise SceneError(f"over has the key {shown(keys)}; allowed: a name, as 'srr', or a tuple of names")
     if samples is None and seed is not None:
         raise SceneError(f"seed = {shown(seed)} has no effect without samples")
     seed = 0 if seed is None else seed
@@ -219,7 +222,10 @@ def plan(scene, over, samples=None, seed=None):
 def _axis(scene, keys, rows):
     if isinstance(keys, str):
         return axis_syntax.axis([keys], [_numbers(scene, keys, axis_syntax.column(rows))])
-    rows = [axis_syntax.column(list(row)) for row in rows]
+    try:
+        rows = [axis_syntax.column(list(row)) for row in rows]
+    except TypeError:  # a number in place of a row, or of the rows
+        rows = [[]]
     if any(len(row) != len(keys) for row in rows):
         raise SceneError(f"{', '.join(keys)}: every row needs {len(keys)} values")
     return axis_syntax.axis(list(keys), [_numbers(scene, key, list(column)) for key, column in zip(keys, zip(*rows))])

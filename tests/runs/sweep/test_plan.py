@@ -100,6 +100,8 @@ def test_cases_in_the_order_of_the_keys():
     ({"height": [1e-6, 2.0]}, "height = 2 m"), ({"srr": [0.1], "operation.srr": [0.2]}, "swept twice"), ({}, "--over"),
     ({"load": [1e6], "hertz_pressure": [1e9]}, "contradict"), ({"srr": "0:1:400", "speed": "1:2:400"}, "at most 100000"),
     ({"srr": []}, "has no values"), ({("srr", "speed"): [(0.1, 5), (0.2,)]}, "needs 2 values"),
+    ({("srr", "speed"): [0.1, 5]}, "needs 2 values"), ({("srr", "speed"): 5}, "needs 2 values"), ({3: [1]}, "has the key 3"),
+    ({("srr", 3): [(0.1, 5)]}, r"has the key \['srr', 3\]; allowed: a name, as 'srr', or a tuple"),
 ])
 def test_what_no_case_can_run_with_is_refused(over, said):
     with pytest.raises(SceneError, match=said):
