@@ -47,6 +47,15 @@ def _use_plugins(*names):
             plugins.use_plugins_of(name)
 
 
+def _opened(of):
+    """The run of a path; anything else unchanged."""
+    if not isinstance(of, (str, PathLike)):
+        return of
+    from tehl_taichi.runs.open_results import open_run
+
+    return open_run(of)
+
+
 def scene(name: "Name | Scene" = "gear") -> "Scene":
     """Load a scene: a built-in one, a TOML file, or the scene of a stored run.
 
@@ -268,7 +277,7 @@ def march(scene: "Scene | str", state: dict | None = None, precision: str | None
     Raises
     ------
     SceneError
-        At once: unknown precision, or a state of another scene.
+        At once: unknown precision, or a state on another grid.
     NotConverged
         A step failed; the snapshots before it are valid.
 
@@ -321,11 +330,11 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
 
     Parameters
     ----------
-    of : Run, sequence of Snapshot, or array
+    of : Run or path, sequence of Snapshot, or array
         A run (its store is not changed); snapshots of `scene`; or stresses in Pa of shape (points, times, 6), for one point
         also (times, 6): xx, yy, zz, xy, xz, yz with z normal to the surface.
     scene : Scene, optional
-        Of a run: a scene that differs in [fatigue] only. Of stresses: the scene whose constants are used.
+        Of a run: a scene that differs in [fatigue] only. Of snapshots: theirs. Of stresses: the scene whose constants are used.
     progress : Progress, optional
         Receives the parts of the search.
     threads : int, optional
@@ -346,6 +355,8 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
     ------
     SceneError
         A constant is out of range, no feature passes, or the stresses have another shape.
+    StoreError
+        No run at the path, or a damaged one.
 
     Notes
     -----
@@ -365,7 +376,7 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
     """
     from tehl_taichi.fatigue import fatigue
 
-    return fatigue(of, scene, progress=progress, threads=threads, until=until, **constants)
+    return fatigue(_opened(of), scene, progress=progress, threads=threads, until=until, **constants)
 
 
 def stresses(pressure: Any, traction_x: Any = None, traction_y: Any = None, dx: float | None = None, dy: float | None = None,
@@ -425,7 +436,7 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
 
     Parameters
     ----------
-    of : Run or sequence of Snapshot
+    of : Run or path, or sequence of Snapshot
         A run (its store is not changed), or snapshots of `scene`.
     scene : Scene, optional
         Scene of the snapshots.
@@ -447,6 +458,8 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
     ------
     SceneError
         No feature passes, y = 0 is no plane of symmetry, the body is at rest, or an option is out of range.
+    StoreError
+        No run at the path, or a damaged one.
 
     Notes
     -----
@@ -463,7 +476,7 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
     """
     from tehl_taichi.crack import crack
 
-    return crack(of, scene, thermal_stress=thermal_stress, threads=threads, **options)
+    return crack(_opened(of), scene, thermal_stress=thermal_stress, threads=threads, **options)
 
 
 def sweep(scene: "Scene | Name", over: Mapping, path: Name | None = None, *, samples: int | None = None,

@@ -1,5 +1,6 @@
 """Arguments of the Python interface of a wrong kind: a sentence, an error of this package, and nothing is left behind."""
 
+import pickle
 import subprocess
 import sys
 
@@ -17,11 +18,59 @@ LINE = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
     (lambda path: tehl.march("gear", state={}), "is not the state of a snapshot"),
     (lambda path: tehl.march("gear", state=3), "state = 3 is not the state of a snapshot"),
     (lambda path: tehl.crack([], lenth=3), r"unknown option 'lenth' \(did you mean 'length'\?\)"),
-], ids=["progress", "callable", "force", "state", "number", "crack"])
+    (lambda path: tehl.crack([], residual="-100 N"), "residual = '-100 N': 'N' is no unit of it"),
+    (lambda path: tehl.crack([], residual="x"), "residual = 'x' must be a stress in Pa"),
+    (lambda path: tehl.crack([], tehl.scene("gear")), "no snapshots: tehl_taichi.crack needs those of a passage"),
+    (lambda path: tehl.fatigue([], tehl.scene("gear")), "no snapshots: tehl_taichi.fatigue needs those of a passage"),
+    (lambda path: tehl.fatigue(iter([])), "no snapshots"),
+    (lambda path: tehl.fatigue([], progress=3), "progress = 3 has no method stage"),
+    (lambda path: tehl.fatigue([[1e8] * 6], until=0.0), "until = 0.0 has no effect on given stresses"),
+    (lambda path: tehl.run(LINE, "a\0b"), "is not a path"),
+    (lambda path: tehl.sweep(LINE, {"srr": [0.0]}, path, progress=3), "progress = 3 is no function; allowed: a function"),
+    (lambda path: tehl.flank(folder=path, changes=3), "changes = 3 must be a dictionary {key: value}"),
+    (lambda path: tehl.flank(folder=path, steady="yes"), "steady = 'yes' must be true or false"),
+    (lambda path: tehl.flank(folder=path, at=50), "the position past C = 50 m is out of range"),
+    (lambda path: tehl.flank(folder=path, at="50 mm"), "the position past C = 0.05 m is out of range"),
+    (lambda path: tehl.flank(folder=path, at=["1 kg"]), "'kg' is no unit of it"),
+    (lambda path: tehl.bearing("6206", folder=path, dimensions=3), "dimensions = 3 must be a dictionary"),
+    (lambda path: tehl.bearing("6206", folder=path, run="no"), "run = 'no' must be true or false"),
+    (lambda path: tehl.report(path, path.with_name("x.html"), force="no"), "force = 'no' must be true or false"),
+    (lambda path: tehl.report(path, pages=1), "pages = 1 must be true or false"),
+    (lambda path: tehl.report(path, progress=3), "progress = 3 has no method stage"),
+    (lambda path: tehl.export(path, force=1), "force = 1 must be true or false"),
+    (lambda path: tehl.animate(path, force=1), "force = 1 must be true or false"),
+    (lambda path: tehl.animate(path, progress=3), "progress = 3 is no function"),
+    (lambda path: tehl.scene("gear").replace(**{"zoom.factor": 4.0}), "zoom.factor = 4.0 is not one of 0, 2, 4, 8, 16"),
+])
 def test_a_sentence(wrong, words, tmp_path):
     with pytest.raises(tehl.SceneError, match=words):
         wrong(tmp_path / "line.zarr")
     assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+def test_arguments_of_a_run(tmp_path):
+    """Paths and depths that are none; nothing is left beside the store."""
+    run = tehl.run(LINE, tmp_path / "line.zarr")
+    for wrong, words in ((lambda: run.export("csv", 3), "path = 3 is not a path"), (lambda: tehl.report(run, 3), "out = 3 is"),
+                         (lambda: run.save_figures(3), "folder = 3 is not a path"),
+                         (lambda: run.plot(depth="20 kg"), "'kg' is no unit of it"),
+                         (lambda: run.plot(depth=1e-5), "depth = 1e-05 µm is .* did you mean 10 µm")):
+        with pytest.raises(tehl.SceneError, match=words):
+            wrong()
+    assert [path.name for path in tmp_path.iterdir()] == ["line.zarr"]
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+def test_a_path_is_its_run(tmp_path):
+    scene = tehl.scene("gear").replace(**{"grid.nx": 32, "grid.ny": 8, "thermal.on": False, "time.steps": 4})
+    run = tehl.run(scene, tmp_path / "gear.zarr")
+    assert tehl.fatigue(str(run.path), kappa=0.2).summary == run.fatigue(kappa=0.2).summary
+    cracks = tehl.crack(run.path, length=20e-6)
+    assert cracks.summary == run.crack(length="20 um").summary == pickle.loads(pickle.dumps(cracks)).summary
+    for call in (tehl.fatigue, tehl.crack):
+        with pytest.raises(tehl.StoreError, match="none.zarr is not a store of tehl run"):
+            call("none.zarr")
 
 
 @pytest.mark.usefixtures("taichi_cpu")

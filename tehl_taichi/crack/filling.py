@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -21,6 +22,14 @@ class Filling(Entry):
     inside: Callable
 
 
+def _compression(oil, Gamma, p):
+    return rho_ratio(oil, p, Gamma) / rho_ratio(oil, 0.0, Gamma)
+
+
+def _viscosity(oil, Gamma, p):
+    return np.exp(ln_eta(oil, p, Gamma))
+
+
 @dataclass(frozen=True)
 class Fluid:
     """Oil in the crack. compression(p): density relative to p = 0; viscosity(p): Pa s; p: Pa, number or array; gap: m, see
@@ -35,7 +44,7 @@ class Fluid:
     def of(cls, scene):
         """Oil of the scene at the temperature of the bodies, Newtonian."""
         oil, Gamma = scene.oil, scene.operation.temperature
-        return cls(lambda p: rho_ratio(oil, p, Gamma) / rho_ratio(oil, 0.0, Gamma), lambda p: np.exp(ln_eta(oil, p, Gamma)))
+        return cls(partial(_compression, oil, Gamma), partial(_viscosity, oil, Gamma))
 
     def compressibility(self, p):
         """Coefficient k (1/Pa) with 1 - k p = 1/compression(p)."""

@@ -35,7 +35,7 @@ class ResidualStress:
     """
 
     def __init__(self, given):
-        given = plain(given)
+        given = units.in_unit("residual", plain(given), "Pa")
         if isinstance(given, (int, float)):
             STRESS.check("residual", given)
             given = [(0.0, given)]
@@ -44,7 +44,8 @@ class ResidualStress:
         except (TypeError, ValueError):
             table = np.zeros(0)
         if table.ndim != 2 or table.shape[1] != 2 or not np.isfinite(table).all():
-            raise SceneError("residual must be a stress in Pa, or rows of two numbers: depth in m, stress in Pa")
+            raise SceneError(f"residual = {shown(given)} must be a stress in Pa, or rows of two numbers: depth in m, stress in "
+                             "Pa")
         self.depth, self.stress = table.T
         if self.depth[0] < 0 or (np.diff(self.depth) <= 0).any():
             raise SceneError("the depths of the residual stress must increase, from 0 m or more")

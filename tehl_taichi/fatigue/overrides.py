@@ -41,7 +41,7 @@ def _check_nodes(scene, snapshots):
 def changed(scene, constants):
     """The scene with these fatigue constants (None: its own). Raises SceneError."""
     if scene is None:
-        raise SceneError("snapshots need their scene: tehl_taichi.fatigue(snapshots, scene)")
+        raise SceneError("snapshots need their scene, as the second argument")
     changes = _given(constants)
     return scene.replace(**changes) if changes else scene
 
@@ -70,7 +70,9 @@ def reader_of(of, function):
     if hasattr(reader, "fields"):
         return reader
     try:
-        return list(reader)
+        if snapshots := list(reader):
+            return snapshots
+        raise SceneError(f"no snapshots: tehl_taichi.{function} needs those of a passage, as tehl_taichi.simulate gives them")
     except TypeError:
         raise SceneError(f"{shown(of)} is neither a run nor snapshots; tehl_taichi.{function} takes what tehl_taichi.open or "
                          "tehl_taichi.march gives") from None

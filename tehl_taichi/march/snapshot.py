@@ -6,6 +6,7 @@ from typing import Any, Callable
 
 import numpy as np
 
+from tehl_taichi.errors import Error
 from tehl_taichi.march.step_output import fields_of, scalars_of
 from tehl_taichi.pressure import fields
 
@@ -88,8 +89,12 @@ class Snapshot:
         self.make_state = functools.partial(gone, self.step)
 
 
+class StateGone(Error, RuntimeError):
+    """The state of an earlier step is requested."""
+
+
 def gone(step, **options):
-    raise RuntimeError(f"the state of step {step} is no longer available; read it before the next step")
+    raise StateGone(f"the state of step {step} is no longer available; read it before the next step")
 
 
 def take(solved, step, time_s, feature_x, make_state):

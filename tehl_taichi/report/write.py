@@ -6,7 +6,8 @@ from typing import Any
 
 from tehl_taichi.disk import user_files
 from tehl_taichi.errors import SceneError
-from tehl_taichi.values.path_arguments import folder_of
+from tehl_taichi.values.checks import callback, flag
+from tehl_taichi.values.path_arguments import folder_of, path_of
 
 
 def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force: bool = False, progress: Any = None,
@@ -14,16 +15,19 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
     """Write a page: see :func:`tehl_taichi.report`."""
     from tehl_taichi.report import document, embed
 
+    flag("force", force)
+    flag("pages", pages)
+    callback("progress", progress, "stage")
     folder = folder_of(of)
     search = _renewed_search(folder, constants)
-    out = Path(out) if out else default_page(folder, "-fatigue" if search else "")
-    user_files.check(out, force, "html")
+    target = path_of("out", out) if out else default_page(folder, "-fatigue" if search else "")
+    user_files.check(target, force, "html")
     embed.check_installed()
     if pages:
         _position_pages(folder, force)
-    page = search.page(progress, threads) if search else page_of(folder, out)
-    user_files.text(out, document.render(page), force, kind="html")
-    return out
+    page = search.page(progress, threads) if search else page_of(folder, target)
+    user_files.text(target, document.render(page), force, kind="html")
+    return target
 
 
 def _renewed_search(folder, constants):

@@ -10,6 +10,7 @@ from typing import Any
 from tehl_taichi.errors import StoreError, UnknownName
 from tehl_taichi.runs.summary import summary_numbers
 from tehl_taichi.scene import Scene
+from tehl_taichi.values.checks import callback
 from tehl_taichi.values.estimate import Quantity
 
 
@@ -127,6 +128,7 @@ class Run:
         from tehl_taichi.runs import fatigue_errors
         from tehl_taichi.runs.stored_fatigue import assessed
 
+        callback("progress", progress, "stage")
         scene = changed(self.scene, constants)
         resolved = until
         if until is None and len(self.store) > 1:

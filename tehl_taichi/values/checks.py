@@ -5,6 +5,7 @@ import dataclasses
 import difflib
 import math
 import os
+from collections.abc import Mapping
 from typing import Union
 
 from tehl_taichi.errors import SceneError
@@ -78,6 +79,19 @@ def flag(where, value, other=""):
     """Refuse anything but true or false (`other`: a word that the caller allows too)."""
     if not isinstance(value, bool):
         raise SceneError(f"{where} = {shown(value)} must be " + (f"true, false or {other!r}" if other else "true or false"))
+
+
+def table(where, value, example):
+    """Refuse anything but a dictionary, as in `example`."""
+    if not isinstance(value, Mapping):
+        raise SceneError(f"{where} = {shown(value)} must be a dictionary {example}")
+
+
+def callback(where, given, method="", allowed="a function, or None"):
+    """Refuse an object that cannot be called, or whose `method` cannot; None is allowed."""
+    if given is not None and not callable(getattr(given, method, None) if method else given):
+        lacks = f"has no method {method}" if method else "is no function"
+        raise SceneError(f"{where} = {shown(given)} {lacks}; allowed: {allowed}")
 
 
 def text(where, value, most=500, printable=True, empty=True):

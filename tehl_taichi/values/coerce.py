@@ -25,6 +25,12 @@ def plain(value, depth=0):
     return os.fspath(value) if isinstance(value, os.PathLike) else value
 
 
+def listed(value):
+    """Tuple of the entries of a list, an array or a range; of one value."""
+    value = plain(value)
+    return value if isinstance(value, tuple) else (value,)
+
+
 def shown(value):
     """repr of any value, in one line of bounded length."""
     try:

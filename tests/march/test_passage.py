@@ -6,6 +6,7 @@ Isothermal and, unless said, Newtonian: the limits of the film and the pressure 
 import numpy as np
 import pytest
 
+from tehl_taichi.errors import Error
 from tehl_taichi.scene import scene as built_in
 from tehl_taichi.scene.scales import Scales
 
@@ -95,7 +96,7 @@ def test_going_on_from_a_state_repeats_the_run():
     whole += run
     rest = list(march(description, state))
     assert len(rest) == 7
-    with pytest.raises(RuntimeError, match="state of step 4 is no longer available"):
+    with pytest.raises(Error, match="state of step 4 is no longer available"):
         march(description, whole[4].state)
     for name, values in rest[-1].fields.items():
         assert np.array_equal(values, whole[-1].fields[name])

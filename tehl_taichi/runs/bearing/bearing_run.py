@@ -25,7 +25,7 @@ from tehl_taichi.scene.film_formula import formula_words, heated_film, spread
 from tehl_taichi.scene.scales import reduced_modulus
 from tehl_taichi.store.json_values import plain
 from tehl_taichi.store.load_scene import find
-from tehl_taichi.values.checks import choice, number
+from tehl_taichi.values.checks import choice, flag, number, table
 from tehl_taichi.values.path_arguments import path_of
 from tehl_taichi.values.units import in_unit
 
@@ -54,6 +54,8 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
             progress: Progress | None = None) -> Bearing:
     """Compute a bearing: see :func:`tehl_taichi.bearing`."""
     choice("on", on, RINGS)
+    flag("run", run)
+    table("dimensions", dimensions or {}, "{key: value}, as in {'clearance': 10e-6}")
     if roughness is not None:
         roughness = in_unit("roughness", roughness, "m")
         number("roughness", roughness, "m", 1e-10, 1e-4, usual=1e-7)

@@ -21,6 +21,8 @@ from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.store.json_values import plain
 from tehl_taichi.store.load_scene import find
+from tehl_taichi.values.checks import flag, table
+from tehl_taichi.values.coerce import listed
 from tehl_taichi.values.path_arguments import path_of
 
 ASSUMPTION = ("each position is a separate contact with constant load and speeds during the passage (a passage takes about "
@@ -38,7 +40,7 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
     """Compute a flank: see :func:`tehl_taichi.flank`."""
     found, scene = flank_source(gear).changed(torque, speed), None if scene is None else find(scene)
     changes = all_changes(changes or {}, steady)
-    places = found.positions(on, positions, at)
+    places = found.positions(on, positions, listed(at))
     scenes = [scene_at(scene or found.scene, changes, found.name, n, place) for n, place in enumerate(places, 1)]
     target = path_of("folder", folder) if folder else first_free_folder(found.name)
     subject = describe(found, target, (on or "pinion") if found.pair else "")
@@ -54,7 +56,9 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
 
 
 def all_changes(changes, steady):
-    """{full key: value} of all changes. Raises SceneError if `steady` contradicts a change."""
+    """{full key: value} of all changes. Raises SceneError if `steady` contradicts a change, or an argument is no such thing."""
+    table("changes", changes, "{key: value}, as in {'srr': 0.1}")
+    flag("steady", steady)
     return resolve([*((words(key, value), key, value) for key, value in changes.items()),
                     *[("steady = True", "time.steady_only", True)] * steady])
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.checks import integer, nearest, number
+from tehl_taichi.values.units import in_unit
 
 ONS = ("pinion", "gear")
 BEYOND = 20  # lengths of the path of contact within which a table of shares ends
@@ -137,9 +138,14 @@ def _beside_pitch_point(mesh, marks):
     return [(-way, ""), (way, "")] if ways[n - 1] < -2 * way and ways[n + 1] > 2 * way else []
 
 
+def _in_metres(place):
+    """A coordinate in m of a text such as "1 mm", other places unchanged. Raises SceneError."""
+    return in_unit("the position past C", place, "m") if isinstance(place, str) and place[:1] in "+-.0123456789" else place
+
+
 def _requested(mesh, table, place, on):
     """All (x, side) of a requested point or coordinate."""
-    towards_tip = 1 if on == "pinion" else -1
+    towards_tip, place = 1 if on == "pinion" else -1, _in_metres(place)
     if isinstance(place, str):
         name, side = place.strip("+-"), place[len(place.strip("+-")):]
         if name not in mesh.points or side and mesh.points[name] not in jumps(mesh, table):

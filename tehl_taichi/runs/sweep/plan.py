@@ -4,7 +4,6 @@ import contextlib
 import hashlib
 import json
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from tehl_taichi.errors import SceneError
@@ -12,6 +11,7 @@ from tehl_taichi.runs.sweep import axis_syntax
 from tehl_taichi.runs.sweep.sampling import latin_hypercube
 from tehl_taichi.scene import Scene, aliases, idle_keys
 from tehl_taichi.scene.unit_texts import column_in_units
+from tehl_taichi.values.checks import table
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.quantity import kinds
 
@@ -203,8 +203,7 @@ def plan(scene, over, samples=None, seed=None):
     >>> found.dims, found.shape, found.changes(5)
     (('srr', 'feature.height'), (2, 3), {'srr': 0.1, 'feature.height': 1.5e-06})
     """
-    if not isinstance(over, Mapping):
-        raise SceneError(f"over = {shown(over)} must be a dictionary {{key: values}}, as in {{'srr': [0.0, 0.1]}}")
+    table("over", over, "{key: values}, as in {'srr': [0.0, 0.1]}")
     for keys in over:
         if not (isinstance(keys, str) or isinstance(keys, tuple) and keys and all(isinstance(key, str) for key in keys)):
             raise SceneError(f"over has the key {shown(keys)}; allowed: a name, as 'srr', or a tuple of names")

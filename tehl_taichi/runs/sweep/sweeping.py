@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from tehl_taichi.runs.sweep.job import LostJob
 from tehl_taichi.scene import Scene
+from tehl_taichi.values.checks import callback
 from tehl_taichi.values.path_arguments import path_of
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
     from tehl_taichi.runs.sweep import case, pool
     from tehl_taichi.runs.sweep.study_table import Study
 
+    callback("progress", progress)
     workers, threads = check_settings(workers, threads_per_worker, scheduler, keep)
     refused = plan.refused()
     path = path_of("path", path) if path is not None else default_path(plan)

@@ -20,20 +20,22 @@ def export(of: Any, format: str = "csv", path: str | PathLike | None = None, *, 
     from tehl_taichi.disk import user_files
     from tehl_taichi.errors import SceneError
     from tehl_taichi.store.reader import Reader
-    from tehl_taichi.values.checks import choice
+    from tehl_taichi.values.checks import choice, flag
     from tehl_taichi.values.coerce import plain
-    from tehl_taichi.values.path_arguments import folder_of
+    from tehl_taichi.values.path_arguments import folder_of, path_of
     from tehl_taichi.view.export.selection import Selection
 
+    flag("force", force)
     known = formats()
     choice("format", format, list(known))
     reader, chosen = Reader.open(folder_of(of)), known[format]
     if not chosen.chosen and (plain(at), plain(point)) != ((), ()):
         raise SceneError(f"at and point apply to csv only; {format} holds every moment and every point")
-    places, path = Selection.of(reader, at, point), Path(path) if path is not None else chosen.default_path(Path(reader.path))
-    with user_files.made(path, force, kind=chosen.ending[1:], parts=chosen.parts) as draft:
+    places = Selection.of(reader, at, point)
+    target = path_of("path", path) if path is not None else chosen.default_path(Path(reader.path))
+    with user_files.made(target, force, kind=chosen.ending[1:], parts=chosen.parts) as draft:
         chosen.write(reader, draft, places)
-    return path
+    return target
 
 
 def formats() -> "dict[str, Format]":

@@ -11,8 +11,8 @@ import numpy as np
 
 from tehl_taichi.disk import user_files
 from tehl_taichi.errors import SceneError, StoreError
-from tehl_taichi.values.checks import choice, integer
-from tehl_taichi.values.path_arguments import folder_of
+from tehl_taichi.values.checks import callback, choice, flag, integer
+from tehl_taichi.values.path_arguments import folder_of, path_of
 from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
 from tehl_taichi.view.figures.frames import SHOWN, Frames
 from tehl_taichi.view.figures.moments import Moments
@@ -33,6 +33,8 @@ def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, 
     integer("frames", frames, 2, 2000)
     integer("fps", fps, 1, 50)
     choice("map", shown, SHOWN)
+    flag("force", force)
+    callback("progress", progress)
     page, store = FigureStyle(dpi=dpi, width=width), Store.open(folder_of(source))
     path, format = _file(store, out, format, force)
     _check(store, shown)
@@ -48,7 +50,7 @@ def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, 
 
 def _file(store, out, format, force):
     """(path, format) of the file to write. Raises SceneError, or StoreError if an existing file is in the way."""
-    path = Path(out) if out else store.path.with_name(store.path.name.removesuffix(".zarr"))
+    path = path_of("out", out) if out else store.path.with_name(store.path.name.removesuffix(".zarr"))
     if out and path.is_dir():
         raise StoreError(f"{path} is a folder; --out takes the name of a file")
     ending = path.suffix[1:].lower() if out else ""

@@ -11,9 +11,10 @@ import numpy as np
 from tehl_taichi.disk import links, user_files
 from tehl_taichi.disk.files import reason
 from tehl_taichi.errors import SceneError, StoreError, extra
-from tehl_taichi.values.checks import choice, integer, number
+from tehl_taichi.values.checks import choice, flag, integer, number
 from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.escape import printable
+from tehl_taichi.values.path_arguments import path_of
 from tehl_taichi.view.figures import palette
 
 FORMATS = ("png", "pdf", "svg")
@@ -45,6 +46,7 @@ class FigureStyle:
     def __post_init__(self):
         choice("format", self.format, FORMATS)
         integer("dpi", self.dpi, 40, 1200)
+        flag("force", self.force)
         number("width", plain(self.width), "cm", 5.0, 60.0)
         if self.width / INCH * self.dpi > DOTS:
             raise SceneError(f"width = {self.width:g} cm with dpi = {self.dpi} gives {self.width / INCH * self.dpi:.0f} dots; "
@@ -127,9 +129,10 @@ class FigureStyle:
     def check_all(self, folder, names):
         """Paths of figures with these names in `folder`. Raises StoreError if they cannot be drawn or may not be written."""
         import_matplotlib()
+        folder = path_of("folder", folder)
         links.refuse_itself(folder)
         check_folder(folder)
-        paths = [Path(folder) / f"{name}.{self.format}" for name in names]
+        paths = [folder / f"{name}.{self.format}" for name in names]
         for path in paths:
             self.check(path)
         return paths

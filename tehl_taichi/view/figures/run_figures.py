@@ -46,7 +46,7 @@ def _all_of(store, page, at, depth, light):
     if store.map("worst_stress") is not None:
         return figures | fatigue_figures.all_figures(page, _fatigue(store, depth))
     if depth is not None:
-        raise SceneError(f"depth = {depth:g} µm needs a fatigue search, and {store.path} has none")
+        raise SceneError(f"depth = {search_data.in_micrometres(depth):g} µm needs a fatigue search, and {store.path} has none")
     return figures
 
 
