@@ -8,7 +8,7 @@ True
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 if TYPE_CHECKING:
     import numpy as np
@@ -322,6 +322,16 @@ def simulate(scene: "Scene | str", precision: str | None = None) -> "list[Snapsh
     ((33, 1), '0.43 um')
     """
     return list(march(scene, precision=precision))
+
+
+@overload
+def fatigue(of: "Run | Name | Sequence[Snapshot] | Iterator[Snapshot]", scene: "Scene | None" = None, *, progress: Any = None,
+            threads: int | None = None, until: float | None = None, **constants: Any) -> "SearchResult": ...
+
+
+@overload
+def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, threads: int | None = None,
+            until: None = None, **constants: Any) -> "Points": ...
 
 
 def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, threads: int | None = None,

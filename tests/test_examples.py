@@ -20,6 +20,10 @@ ROOT = Path(__file__).parents[1]
 NAMES = sorted({*tehl.__all__, "open"} - {"__version__"})
 CLASSES = [name for name in NAMES if isinstance(getattr(tehl, name), type)]
 FUNCTIONS = [name for name in NAMES if name not in CLASSES]
+# methods of public classes that only this package calls
+OWN_USE = {"add", "check", "density_ratio", "faded", "filtered", "flush", "from_arrays", "from_values", "height_at", "index",
+           "let_go", "line", "load_meant", "nearest", "passing", "place_in_file", "position_in_file", "table_text",
+           "to_arrays", "to_rim", "with_position", "with_ring", "write", "x_of"}
 
 
 def inherits(thing):
@@ -48,6 +52,17 @@ def test_public_functions_are_plain_typed_and_say_what_goes_in_and_out(name):
     for parameter in signature.parameters:
         assert parameter in thing.__doc__
     assert pydoc.render_doc(f"tehl_taichi.{name}", renderer=pydoc.plaintext).startswith("Python Library Documentation: func")
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_methods_that_users_call_are_typed(name):
+    """A strict check of a script with types refuses calls of others."""
+    methods = {key: method for base in getattr(tehl, name).__mro__ if base.__module__.startswith("tehl_taichi")
+               for key, method in inspect.getmembers(base, callable) if not key.startswith("_") and key in vars(base)}
+    for key in methods.keys() - OWN_USE:
+        signature = inspect.signature(methods[key])
+        given = [one.annotation for one in signature.parameters.values() if one.name != "self"]
+        assert inspect.Signature.empty not in (signature.return_annotation, *given), key
 
 
 @pytest.mark.parametrize("name", CLASSES)

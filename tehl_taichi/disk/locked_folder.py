@@ -17,7 +17,7 @@ class LockedFolder:
     def __exit__(self, *_):
         self.close()
 
-    def close(self):
+    def close(self) -> None:
         """Release the lock; stored data can still be read."""
         if self.lock:
             self.lock.release()

@@ -121,22 +121,22 @@ class SearchResult:
         return own | (_of_other(self.other.to_arrays()) if self.other else {})
 
     @property
-    def by_surface(self):
+    def by_surface(self) -> dict[str, "SearchResult"]:
         """{"a" or "b": SearchResult} of each searched body, this one first."""
         return {one.summary.get("surface", "a"): one for one in (self, self.other) if one}
 
     @property
-    def summaries(self):
+    def summaries(self) -> dict[str, dict]:
         """{"a" or "b": summary} of each searched body, this one first."""
         return {name: one.summary for name, one in self.by_surface.items()}
 
     @property
-    def maps(self):
+    def maps(self) -> dict:
         """Same as :meth:`to_arrays`."""
         return self.to_arrays()
 
     @property
-    def numbers(self):
+    def numbers(self) -> dict:
         """Numbers of this search; if the summary gives no index, those of the pressure alone."""
         return searched(self.summary)
 

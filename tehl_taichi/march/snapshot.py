@@ -72,7 +72,7 @@ class Snapshot:
                 f"h_min {s['h_min_m'] * 1e6:.2g} um>")
 
     @functools.cached_property
-    def state(self):
+    def state(self) -> dict:
         """State from which a march continues."""
         return self.make_state()
 

@@ -45,32 +45,32 @@ class Comparison:
         return f"<tehl.Comparison of {len(self.stores)} runs{': ' * bool(self.stores)}{', '.join(self.labels())}>"
 
     @property
-    def names(self):
+    def names(self) -> list[str]:
         """Folder names, with as many parent folders as are needed to distinguish them."""
         return compare_labels.names([store.path for store in self.stores])
 
     @property
-    def differs(self):
+    def differs(self) -> dict:
         """{dotted key of the scene: its value in every run} of the keys that differ; None for a scene without the key."""
         return compare_labels.differs([flat(store.scene.to_dict()) for store in self.stores])
 
     @property
-    def summaries(self):
+    def summaries(self) -> dict:
         """{dotted name, as in the JSON summary: its number in every run}; None for a run without it."""
         return compare_labels.side_by_side([flat(store.summary) for store in self.stores], _shown_values)
 
     @property
-    def lines(self):
+    def lines(self) -> list:
         """Rows of `tehl show` for the summaries: one :class:`tehl_taichi.runs.compare_rows.ComparisonRow` per quantity."""
         from tehl_taichi.runs.compare_rows import lines
 
         return lines([store.summary for store in self.stores])
 
-    def labels(self):
+    def labels(self) -> list[str]:
         """Label of each run: up to two values that differ, or its folder."""
         return compare_labels.labels(self.differs, [store.path for store in self.stores])
 
-    def to_dict(self):
+    def to_dict(self) -> dict:
         """The JSON object of `tehl compare --json`."""
         return {"stores": [str(store.path) for store in self.stores], "finished": [store.finished for store in self.stores],
                 "differs": self.differs, "summaries": self.summaries}

@@ -4,9 +4,14 @@ import contextlib
 import math
 import sys
 import time
+from typing import TYPE_CHECKING, TextIO
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.pace import Pace
+
+if TYPE_CHECKING:
+    from tehl_taichi.march.snapshot import Snapshot
+    from tehl_taichi.scene import Scene
 
 STAGES = "steady start", "passage", "zoom", "stresses and fatigue", "coarse-grid runs"
 STEADY, PASSAGE, ZOOM, FATIGUE, ERRORS = STAGES
@@ -42,22 +47,22 @@ class Progress:
     passage 3/192
     """
 
-    def begin(self, scene):
+    def begin(self, scene: "Scene") -> None:
         """Receive the scene at the start of its passage."""
 
-    def say(self, text):
+    def say(self, text: str) -> None:
         """Receive a sentence about the run: what the scene leaves out, what was read, what comes next."""
 
-    def warn(self, sentence):
+    def warn(self, sentence: str) -> None:
         """Receive warnings about the scene, known before the run (those of its results are in :attr:`Run.warnings`)."""
 
-    def stage(self, name, done, total):
+    def stage(self, name: str, done: int, total: int) -> None:
         """Receive the progress of a stage (one of STAGES): `done` of `total` parts are complete.
 
         A stage begins with done = 0, a resumed passage with the number of stored steps.
         """
 
-    def step(self, snapshot):
+    def step(self, snapshot: "Snapshot") -> None:
         """Receive an accepted time step, a :class:`tehl_taichi.march.snapshot.Snapshot`, right after its stage."""
 
 
@@ -79,23 +84,23 @@ class Lines(Progress):
 
     EVERY = 5.0  # seconds between the lines of steps and parts
 
-    def __init__(self, stream=None):
+    def __init__(self, stream: TextIO | None = None) -> None:
         self.stream, self.total, self.last, self.pace, self.yielded = stream, 0, time.perf_counter(), Pace(), False
         self.limit = math.inf  # Pa, of pressures: from it on a body of the scene may yield
 
-    def begin(self, scene):
+    def begin(self, scene: "Scene") -> None:
         from tehl_taichi.scene import yield_stress
 
         self.limit = math.inf if scene.runs_in else yield_stress.pressure(scene)
 
-    def say(self, text):
+    def say(self, text: str) -> None:
         with contextlib.suppress(BrokenPipeError):  # a run continues where its output is closed
             print(text, file=self.stream or sys.stderr, flush=True)
 
-    def warn(self, sentence):
+    def warn(self, sentence: str) -> None:
         self.say(f"warning: {sentence}")
 
-    def stage(self, name, done, total):
+    def stage(self, name: str, done: int, total: int) -> None:
         if name == PASSAGE:
             self.total = total
             self.pace.at(done)
@@ -105,12 +110,12 @@ class Lines(Progress):
             left = self.pace.left(total) if share >= TOLD else ""
             self._say_at_intervals(f"{name}: {share:.0%}{f', {left}' if left else ''}")
 
-    def step(self, snapshot):
+    def step(self, snapshot: "Snapshot") -> None:
         self.beyond_steel(snapshot)
         left = self.pace.left(self.total)
         self._say_at_intervals(f"step {snapshot.step}/{self.total}  {line(snapshot)}{f'  {left}' if left else ''}")
 
-    def beyond_steel(self, snapshot):
+    def beyond_steel(self, snapshot: "Snapshot") -> None:
         """Report, once, a pressure beyond the yield limit of steel, so that the user can stop the run."""
         p = snapshot.scalars["p_max_Pa"]
         if p > self.limit and not self.yielded:

@@ -5,13 +5,18 @@ import warnings
 from collections.abc import Iterator
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tehl_taichi.errors import StoreError, UnknownName
 from tehl_taichi.runs.summary import summary_numbers
 from tehl_taichi.scene import Scene
 from tehl_taichi.values.checks import callback
 from tehl_taichi.values.estimate import Quantity
+
+if TYPE_CHECKING:
+    from tehl_taichi.crack.analysis import CrackResult
+    from tehl_taichi.fatigue.search_result import SearchResult
+    from tehl_taichi.store.store import Store
 
 
 class Run:
@@ -38,7 +43,7 @@ class Run:
     ('m', True, True)
     """
 
-    def __init__(self, store):
+    def __init__(self, store: "Store") -> None:
         self.store = store
 
     @property
@@ -110,7 +115,8 @@ class Run:
     def _ipython_key_completions_(self):
         return list(self)
 
-    def fatigue(self, *, progress: Any = None, threads: int | None = None, until: float | None = None, **constants: Any) -> Any:
+    def fatigue(self, *, progress: Any = None, threads: int | None = None, until: float | None = None, **constants: Any
+                ) -> "SearchResult":
         """Recompute its fatigue with other constants, see :func:`tehl_taichi.fatigue`; the store is not changed.
 
         Parameters
@@ -141,7 +147,7 @@ class Run:
         fatigue_errors.add_errors(found.summaries, scene.fatigue, self.store)
         return found
 
-    def crack(self, **options: Any) -> Any:
+    def crack(self, **options: Any) -> "CrackResult":
         """Follow cracks under its loads, see :func:`tehl_taichi.crack`."""
         from tehl_taichi.crack import crack
 

@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -106,7 +107,7 @@ class Scene:
     operation: Operation = Operation()
     oil: Oil = Oil()
     rheology: Rheology = Rheology()
-    features: tuple = (Feature(),)
+    features: Sequence[Feature] = (Feature(),)
     thermal: Thermal = Thermal()
     fatigue: Fatigue = Fatigue()
     grid: Grid = Grid()
@@ -228,7 +229,7 @@ class Scene:
         return key, getattr(self.contact, key), unit
 
     @property
-    def load_unit(self):
+    def load_unit(self) -> str:
         """Unit of contact.load."""
         return "N/m" if self.contact.kind == "line" else "N"
 
@@ -261,22 +262,22 @@ class Scene:
         return scales.load_of(self)
 
     @property
-    def transient(self):
+    def transient(self) -> bool:
         """True if a feature passes."""
         return bool(self.features) and not self.time.steady_only
 
     @property
-    def zooms(self):
+    def zooms(self) -> bool:
         """Whether the passage has a fine window around its feature."""
         return self.transient and self.zoom.factor > 0
 
     @property
-    def runs_in(self):
+    def runs_in(self) -> bool:
         """Whether run-in passages, in which steel yields, come before the assessed passage."""
         return self.transient and self.time.run_in > 0
 
     @property
-    def at_rest(self):
+    def at_rest(self) -> tuple:
         """(surface a, surface b): whether it moves at less than a hundredth of the mean speed; then heat treats it as at
         rest.
         """
@@ -284,7 +285,7 @@ class Scene:
         return o.u_a < AT_REST * o.u_m, o.u_b < AT_REST * o.u_m
 
     @property
-    def surfaces(self):
+    def surfaces(self) -> tuple:
         """Both surfaces, a first (:class:`tehl_taichi.scene.moving_surfaces.MovingSurface`)."""
         return moving_surfaces.surfaces(self)
 
@@ -294,17 +295,17 @@ class Scene:
         return next(s for s in self.surfaces if s.name == moving_surfaces.reference_name(self))
 
     @property
-    def passing(self):
+    def passing(self) -> list:
         """[(surface, feature)] of all passing features."""
         return [(s, f) for s in self.surfaces for f in s.features if not s.stands]
 
     @property
-    def standing(self):
+    def standing(self) -> tuple:
         """Features of a surface at rest; they are in the contact from the steady start on."""
         return tuple(f for s in self.surfaces for f in s.features if s.stands and self.transient)
 
     @property
-    def path(self):
+    def path(self) -> tuple[float, float]:
         """Start and end position of the first feature's centre, in a; they lie farther out for long features."""
         if not self.features:
             return FIRST, LAST
@@ -316,22 +317,22 @@ class Scene:
                 self.time.x_end if self.time.x_end < math.inf else end)
 
     @property
-    def one_dimensional(self):
+    def one_dimensional(self) -> bool:
         """True for a line contact without variation along y."""
         return self.contact.kind == "line" and (not self.transient or all(f.transverse for f in self.features))
 
     @property
-    def symmetric(self):
+    def symmetric(self) -> bool:
         """True if the half domain y >= 0 suffices."""
         return not self.transient or all(f.symmetric for f in self.features)
 
     @property
-    def rows(self):
+    def rows(self) -> int:
         """Number of cells along y: 0 in one dimension, grid.ny on the half domain, twice as many on the whole."""
         return 0 if self.one_dimensional else self.grid.ny * (1 if self.symmetric else 2)
 
     @property
-    def isothermal(self):
+    def isothermal(self) -> bool:
         """Whether no temperatures are computed. Left to the program, they are but for a Moes pair, and for pure rolling where
         the heat of the inlet hardly matters by formula."""
         if self.thermal.on == AUTO:
@@ -339,12 +340,12 @@ class Scene:
         return not self.thermal.on
 
     @property
-    def shear_law(self):
+    def shear_law(self) -> Rheology:
         """Rheology for the flow of an isothermal film: Newtonian without slip."""
         return self.rheology if self.operation.u_s != 0 else dataclasses.replace(self.rheology, law=NEWTONIAN.name)
 
     @property
-    def keeps_expansion(self):
+    def keeps_expansion(self) -> bool:
         """Whether the density of an isothermal film keeps its thermal factor, at the inlet temperature.
 
         It does if thermal.on is left to the program and there is no slip, so that films with and without slip have one oil.
@@ -352,18 +353,18 @@ class Scene:
         return self.thermal.on == AUTO and self.contact.moes_M == 0
 
     @property
-    def film_oil(self):
+    def film_oil(self) -> Oil:
         """Oil of an isothermal film."""
         expansion = oil.in_one_temperature(self.oil.expansion, self.keeps_expansion)
         return dataclasses.replace(self.oil, expansion=expansion) if expansion != self.oil.expansion else self.oil
 
     @property
-    def has_thermal_stress(self):
+    def has_thermal_stress(self) -> bool:
         """Whether the surface temperature contributes to the stresses."""
         counts = self.fatigue.thermal_stress
         return not self.isothermal if counts == AUTO else bool(counts)
 
-    def left_out(self, cut=True):
+    def left_out(self, cut: bool = True) -> list[str]:
         """Parts that this scene does not need and does not compute, each with its reason.
 
         cut: also list the rest of a cut passage, which a warning reports, too.
@@ -395,7 +396,7 @@ class Scene:
             out.append(f"shear law of the film (rheology.law = {self.rheology.law!r})")
         return out
 
-    def warnings(self):
+    def warnings(self) -> list:
         """Warnings about this scene, one sentence each (see :mod:`tehl_taichi.scene.scene_warnings`)."""
         return list(self._warnings)
 
@@ -404,17 +405,17 @@ class Scene:
         return scene_warnings.warnings(self)
 
     @property
-    def has_fatigue(self):
+    def has_fatigue(self) -> bool:
         """Whether the fatigue of the passage is computed."""
         return self.judges_steel and self.transient
 
     @property
-    def judges_steel(self):
+    def judges_steel(self) -> bool:
         """Whether an index is computed: of the passage, or of the smooth contact alone."""
         return self.fatigue.on and bool(self.judged)
 
     @property
-    def judged(self):
+    def judged(self) -> tuple:
         """Surfaces whose material the fatigue search covers: those of fatigue.surfaces that move (one at rest is always under
         load).
         """
@@ -422,7 +423,7 @@ class Scene:
         return tuple(s for s, rests in zip(self.surfaces, self.at_rest) if s.name in names and not rests)
 
     @property
-    def without_fatigue(self):
+    def without_fatigue(self) -> str:
         """Reason why the scene has no fatigue index, as in :meth:`left_out`; "" if it has one."""
         if self.has_fatigue:
             return ""
@@ -465,13 +466,13 @@ class Scene:
         overrides.check_effect(changed, changes)
         return changed.with_user_keys(idle_keys.user_keys(self) | idle_keys.changed_keys(changed, changes))
 
-    def with_user_keys(self, keys):
+    def with_user_keys(self, keys: Iterable[str]) -> "Scene":
         """This scene, with a record of the keys that the user gave (see :mod:`tehl_taichi.scene.idle_keys`)."""
         object.__setattr__(self, "user_keys", frozenset(keys))
         self.__dict__.pop("_warnings", None)  # they depend on these keys
         return self
 
-    def to_dict(self):
+    def to_dict(self) -> dict:
         """Nested dictionary of all values, defaults included; its keys are the sections of a scene file."""
         data: dict[str, Any] = {"name": self.name, "note": self.note}
         for key in SECTIONS:
@@ -482,7 +483,7 @@ class Scene:
         return data
 
     @classmethod
-    def from_dict(cls, data):
+    def from_dict(cls, data: dict) -> "Scene":
         """Scene from such a dictionary; missing values take their defaults, unknown keys are refused.
 
         No key counts as given by the user.

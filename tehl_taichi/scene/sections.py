@@ -139,16 +139,16 @@ class Operation:
         check(self, "operation")
 
     @property
-    def u_s(self):
+    def u_s(self) -> float:
         """Slip u_a - u_b, m/s."""
         return self.u_m * self.srr
 
     @property
-    def u_a(self):
+    def u_a(self) -> float:
         return self.u_m * (1 + self.srr / 2)
 
     @property
-    def u_b(self):
+    def u_b(self) -> float:
         return self.u_m * (1 - self.srr / 2)
 
 

@@ -1,8 +1,10 @@
 """Reader of a store: scene, series, fields, maps and summary. It writes nothing, except to undo half a replacement."""
 
 import math
+from collections.abc import Iterable
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -120,11 +122,11 @@ class Reader:
     def time(self):
         return self.series["time"][: self.steps]
 
-    def scalar(self, name):
+    def scalar(self, name: str) -> np.ndarray:
         """Values of a scalar series, one per stored entry (with output.every: see `cell_methods`)."""
         return self.series[name][: self.steps]
 
-    def feature_x(self, n):
+    def feature_x(self, n: int) -> float:
         """Position of the first feature's centre (m) at entry n. Raises SceneError as :meth:`fields`."""
         self._check_entry(n)
         return float(self.series["feature_x"][n])
@@ -137,7 +139,7 @@ class Reader:
         pace = next(s.pace for s in self.scene.surfaces if s.name == surface)  # stores before 0.9, all features on one
         return pace * self.scalar("feature_x")
 
-    def fields(self, n, names=None):
+    def fields(self, n: int, names: Iterable[str] | None = None) -> dict[str, np.ndarray]:
         """{name: (nx+1, ny+1) array} of entry n; names: default all stored fields. Raises SceneError if the store has no such
         entry, StoreError for a damaged file.
         """
@@ -193,6 +195,6 @@ class Reader:
         found = self.run_in
         return found.changes if found else ()
 
-    def map(self, name):
+    def map(self, name: str) -> Any:
         """A map that :meth:`finish` stored, or None."""
         return self._whole(name) if name in self.metadata else None

@@ -41,14 +41,14 @@ class Quantity:
     reason: str = ""
     name: str = ""
 
-    def __float__(self):
+    def __float__(self) -> float:
         return float(self.value)
 
     def __format__(self, spec):
         return format(self.value, spec) if spec else str(self)
 
     @property
-    def relative(self):
+    def relative(self) -> float | None:
         """Error over value; None if one of them is unknown or the value is 0."""
         return None if self.error is None or not self.value else abs(self.error / self.value)
 

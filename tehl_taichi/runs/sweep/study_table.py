@@ -11,7 +11,10 @@ import csv
 import io
 import json
 import time
+from collections.abc import Iterator
+from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -70,7 +73,7 @@ class Study(LockedFolder):
                 self._take(record)
 
     @classmethod
-    def open(cls, path):
+    def open(cls, path: str | PathLike) -> "Study":
         """Open an existing study for reading. Raises StoreError."""
         attrs = attributes(path)
         if attrs is None:
@@ -128,7 +131,7 @@ class Study(LockedFolder):
                              "resumes") \
                 from None
 
-    def close(self):
+    def close(self) -> None:
         """Write all pending data and release the lock."""
         try:
             if self.lock:
@@ -136,7 +139,7 @@ class Study(LockedFolder):
         finally:
             super().close()
 
-    def __len__(self):
+    def __len__(self) -> int:
         return self.plan.count
 
     def __repr__(self):
@@ -144,26 +147,26 @@ class Study(LockedFolder):
         return f"<Study {self.path}: {len(self)} cases, {counts}>"
 
     @property
-    def counts(self):
+    def counts(self) -> dict[str, int]:
         """{status: number of cases}."""
         return {word: int(np.sum(self.status == number)) for word, number in records.STATUS.items()}
 
     @property
-    def open_cases(self):
+    def open_cases(self) -> list[int]:
         """Numbers of the cases without a final result."""
         final = [records.STATUS[word] for word in records.FINAL]
         return np.flatnonzero(~np.isin(self.status, final)).tolist()
 
     @property
-    def table(self):
+    def table(self) -> Path:
         """Path of the CSV."""
         return self.path / TABLE
 
-    def store_of(self, number):
+    def store_of(self, number: int) -> Path:
         """Path of the store of a case (which may not exist)."""
         return self.path / CASES / f"{number:04d}.zarr"
 
-    def results(self):
+    def results(self) -> list[dict]:
         """Last record of every completed case, by case number: "case", "changes", "status", "converged", "reason", "store",
         "seconds", "summary".
         """
@@ -174,7 +177,7 @@ class Study(LockedFolder):
     def _full(self, store):
         return str(self.path / store) if store else None
 
-    def rows(self):
+    def rows(self) -> Iterator[dict]:
         """Generator of one dictionary per case: its number, keys, status and numbers."""
         words = {number: word for word, number in records.STATUS.items()}
         for n in range(len(self)):
@@ -253,13 +256,13 @@ class Study(LockedFolder):
             out.writerow({key: "" if value != value else cell(value) for key, value in row.items()})
         return text.getvalue()
 
-    def to_dict(self):
+    def to_dict(self) -> dict:
         """The JSON object of `tehl sweep --json`."""
         converged = self.counts["converged"]
         return {"cases": len(self), "converged": converged, "failed": len(self) - converged, "study": str(self.path),
                 "table": str(self.table), "results": self.results()}
 
-    def to_xarray(self):
+    def to_xarray(self) -> Any:
         """Table as an xarray.Dataset over the swept keys. Raises StoreError without xarray, and for a damaged file."""
         try:
             from tehl_taichi.store import checked_zarr
@@ -267,7 +270,8 @@ class Study(LockedFolder):
             raise StoreError(f"xarray is not installed: {extra('xarray')}") from None
         return checked_zarr.opened(self.path, _arrays(self.path), every=False).load()
 
-    def plot(self, folder=None, quantity=None, dpi=160, format="png", width=17.0, force=False):
+    def plot(self, folder: str | PathLike | None = None, quantity: str | None = None, dpi: int = 160, format: str = "png",
+             width: float = 17.0, force: bool = False) -> list:
         """Write its figures into `folder` (default: beside the study), of one column of the table or of the usual ones.
 
         dpi, format, width, force: as :meth:`Run.plot`. Returns their paths. Raises SceneError; StoreError without matplotlib,

@@ -1,10 +1,15 @@
 """Results of traction curves: one row per case, grouped to curves."""
 
+from os import PathLike
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from tehl_taichi.runs.flank.flank_columns import error_of, value_at
 from tehl_taichi.values.coded_warning import Kinds, unique, warnings_of
 from tehl_taichi.values.digits import printed_unit
+
+if TYPE_CHECKING:
+    from tehl_taichi.runs.sweep.study_table import Study
 
 TEMPERATURE, SPEED, SRR, LOAD, PRESSURE = "temperature", "speed", "srr", "load", "hertz_pressure"
 ALONG = (SRR, SPEED, LOAD, PRESSURE, TEMPERATURE)  # of keys with several values the first is that along the curves
@@ -38,7 +43,7 @@ class Traction:
     (<tehl.Traction smooth-line: 1 of 1 cases, t.zarr>, '0.08')
     """
 
-    def __init__(self, study):
+    def __init__(self, study: "Study") -> None:
         self.study = study
 
     @property
@@ -106,7 +111,8 @@ class Traction:
         return {"scene": self.study.plan.scene.name, "study": str(self.study.path), "table": str(self.study.table),
                 "rows": self.rows}
 
-    def plot(self, folder=None, dpi: int = 160, format: str = "png", width: float = 17.0, force: bool = False) -> Path:
+    def plot(self, folder: str | PathLike | None = None, dpi: int = 160, format: str = "png", width: float = 17.0,
+             force: bool = False) -> Path:
         """Write the figure traction.png into `folder` (default: beside the study); returns its path.
 
         dpi, format, width, force: as :meth:`Run.plot`. Raises SceneError; StoreError without matplotlib, or if a file is in the
