@@ -49,6 +49,19 @@ def test_a_sentence(wrong, words, tmp_path):
 
 
 @pytest.mark.usefixtures("taichi_cpu")
+def test_a_state_of_another_scene():
+    cold = tehl.scene("gear").replace(**{"grid.nx": 32, "grid.ny": 8, "thermal.on": False, "time.steps": 1})
+    state = next(tehl.march(cold)).state
+    for scene, words in ((cold.replace(**{"thermal.on": True}), r"no array for heat_T, the scene needs \(9, 9, 33\)"),
+                         (cold.replace(**{"grid.nx": 64}), r"shape \(9, 33\) for P, the scene needs \(9, 65\)")):
+        with pytest.raises(tehl.SceneError, match=words):
+            tehl.march(scene, state)
+    with pytest.raises(tehl.SceneError, match="is not the state of a snapshot"):
+        tehl.march(cold, {"P": state["P"]})
+    assert [one.step for one in tehl.march(cold, state)] == [1]
+
+
+@pytest.mark.usefixtures("taichi_cpu")
 def test_arguments_of_a_run(tmp_path):
     """Paths and depths that are none; nothing is left beside the store."""
     run = tehl.run(LINE, tmp_path / "line.zarr")

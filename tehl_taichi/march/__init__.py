@@ -18,19 +18,27 @@ __all__ = ["march"]
 
 def march(scene: "Scene | str", state: dict | None = None, precision: str | None = None) -> "Iterator[Snapshot]":
     """March through a scene: see :func:`tehl_taichi.march`."""
-    from tehl_taichi.errors import SceneError
     from tehl_taichi.march.passage import march as run
     from tehl_taichi.scene.builtin import scene_or_builtin
-    from tehl_taichi.values.coerce import shown
 
     scene = scene_or_builtin(scene)
     if state is not None:
-        if not isinstance(state, dict) or "P" not in state:
-            raise SceneError(f"state = {shown(state)} is not the state of a snapshot; allowed: `snapshot.state` of this scene")
-        if (found := tuple(state["P"].shape)) != (nodes := (scene.rows + 1, scene.grid.nx + 1)):
-            raise SceneError(f"the state has {found[1]} x {found[0]} nodes, the scene {nodes[1]} x {nodes[0]}; it belongs to "
-                             "another scene")
+        _check_state(scene, state)
     return run(scene if precision is None else scene.replace(**{"numerics.precision": precision}), state)
+
+
+def _check_state(scene, state):
+    """Refuse anything but a state of a snapshot on the nodes of the scene. Raises SceneError."""
+    from tehl_taichi.errors import SceneError
+    from tehl_taichi.values.coerce import shown
+
+    if not isinstance(state, dict) or not {"step", "P", "H0", "load"} <= state.keys():
+        raise SceneError(f"state = {shown(state)} is not the state of a snapshot; allowed: `snapshot.state` of this scene")
+    nodes = scene.rows + 1, scene.grid.nx + 1
+    for key, shape in {"P": nodes, **({} if scene.isothermal else {"heat_T": (scene.thermal.nodes, *nodes)})}.items():
+        if (found := getattr(state.get(key), "shape", None)) != shape:
+            what = f"an array of the shape {found}" if found else "no array"
+            raise SceneError(f"the state has {what} for {key}, the scene needs {shape}; it belongs to another scene")
 
 
 def __getattr__(name):
