@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl_taichi.values.checks import number
 from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.moments import ROOM, WINDOW, Moments
 
@@ -43,6 +44,7 @@ class Curve:
 
 def write(comparison, path, at, page):
     """Write the figure in the format of a :class:`FigureStyle`; returns the path. at: position of the features, a."""
+    number("at", at, "a", -1e3, 1e3)
     page, path = page.of_file(path)
     page.check(path)
     moments = [Moments(store) for store in comparison.stores]

@@ -14,6 +14,7 @@ from tehl_taichi.values.unit_hints import hint
 
 HUGE = 10**300  # whole numbers beyond it are no floats
 MANY = 20  # names that a message lists at most
+CHANGES = "{key: value}, as in {'srr': 0.1}"  # form of an argument
 ALL_KEYS = "`tehl new FILE`"  # writes a scene file with every key
 
 

@@ -21,7 +21,7 @@ from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.store.json_values import plain
 from tehl_taichi.store.load_scene import find
-from tehl_taichi.values.checks import flag, table
+from tehl_taichi.values.checks import CHANGES, flag, table
 from tehl_taichi.values.coerce import listed
 from tehl_taichi.values.path_arguments import path_of
 
@@ -57,7 +57,7 @@ def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = N
 
 def all_changes(changes, steady):
     """{full key: value} of all changes. Raises SceneError if `steady` contradicts a change, or an argument is no such thing."""
-    table("changes", changes, "{key: value}, as in {'srr': 0.1}")
+    table("changes", changes, CHANGES)
     flag("steady", steady)
     return resolve([*((words(key, value), key, value) for key, value in changes.items()),
                     *[("steady = True", "time.steady_only", True)] * steady])

@@ -13,6 +13,7 @@ from tehl_taichi.runs.traction.traction_rows import LOAD, PRESSURE, SPEED, SRR, 
 from tehl_taichi.scene import Scene, idle_keys
 from tehl_taichi.scene.aliases import check_swept, full_name
 from tehl_taichi.store.load_scene import find
+from tehl_taichi.values.checks import CHANGES, table
 
 SRRS = "0:0.5:11"  # of the usual curve
 KEYS = {TEMPERATURE: "operation.temperature", LOAD: "contact.load", PRESSURE: "contact.hertz_pressure", SPEED: "operation.u_m",
@@ -35,6 +36,7 @@ def traction_plan(scene, srr=SRRS, temperature=None, speed=None, changes=None, l
 
     Temperatures are computed in all cases unless switched off, also in pure rolling, so that one curve compares like with like.
     """
+    table("changes", changes or {}, CHANGES)
     changes = {full_name(key): value for key, value in (changes or {}).items()}
     given = {TEMPERATURE: temperature, LOAD: load, PRESSURE: hertz_pressure, SPEED: speed, SRR: srr}
     swept = {key: axis_syntax.column(values) for key, values in given.items() if values is not None}

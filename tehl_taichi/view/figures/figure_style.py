@@ -167,7 +167,7 @@ class FigureStyle:
 
     def of_file(self, path):
         """(page, path) that agree: format of the path's suffix, or suffix of the format. Raises SceneError."""
-        path = Path(path)
+        path = path_of("path", path)
         if not path.suffix:
             return self, path.with_name(f"{path.name}.{self.format}")
         choice(f"format of {path}", path.suffix[1:].lower(), FORMATS)
