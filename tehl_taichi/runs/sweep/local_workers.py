@@ -96,7 +96,8 @@ class Worker:
         context = multiprocessing.get_context("spawn")  # a forked one would have Taichi, but none of its threads
         self.pipe, theirs = context.Pipe()
         self.process = context.Process(target=_serve, args=(theirs,), daemon=True, name="tehl worker")
-        self.process.start()
+        with _without_missing_script():
+            self.process.start()
         theirs.close()
 
     def give(self, work, number, job, tries):
@@ -118,6 +119,20 @@ class Worker:
         with contextlib.suppress(OSError, ValueError):
             return int(Path(f"/proc/{self.process.pid}/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
         return 0
+
+
+@contextlib.contextmanager
+def _without_missing_script():
+    """Context manager: a script that is no file (read from stdin) has no name. A new process would import it by that name."""
+    main = sys.modules["__main__"]
+    name = getattr(main, "__file__", None)
+    try:
+        if name and not os.path.exists(name):
+            main.__file__ = None
+        yield
+    finally:
+        if name:
+            main.__file__ = name
 
 
 def _serve(pipe):

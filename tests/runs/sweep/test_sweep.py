@@ -307,6 +307,13 @@ def test_answers_belong_to_their_jobs():
     assert found == {n: job**2 for n, job in enumerate(jobs) if job >= 0}
 
 
+def test_a_script_from_stdin_has_workers(tmp_path):
+    """It is no file that they could import."""
+    code = "from tehl_taichi.runs.sweep import pool; print(sorted(pool.results(str, range(3), workers=2)), __file__)"
+    run = subprocess.run([sys.executable], input=code, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert run.stdout == "[(0, '0'), (1, '1'), (2, '2')] <stdin>\n"
+
+
 def test_workers_open_no_port_and_end_with_their_sweep(tmp_path):
     """A worker hears of its jobs by a pipe; of a killed sweep it is not left."""
     code = ("import fake_cases, sys; from tehl_taichi.runs.sweep import pool\n"
