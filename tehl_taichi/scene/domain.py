@@ -12,7 +12,7 @@ from tehl_taichi.scene import hertz
 from tehl_taichi.scene.film_formula import heated_film
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.automatic import AutomaticValue
-from tehl_taichi.values.coded_text import grid_option
+from tehl_taichi.values.coded_text import Option, grid_option
 from tehl_taichi.values.coded_warning import with_data
 from tehl_taichi.values.quantity import AUTO
 
@@ -31,6 +31,9 @@ GAPS, HEATED = 8.0, 20.0
 # What an end costs the film: a part of (gap there/so many films)^(-3/2), and of a passage's numbers
 INLET, SIDE, LEFT, PASSAGE = 1.4, 0.7, {"line": 0.06, "point": 0.3}, 3.0
 LITTLE = 2e-3
+# Gap over film up to which an end is the likely cause of a failed start: of 15 starts of lines from -1.2, -1.5 and -2.5 a with
+# at most 1.3 eight failed (0.1 to 0.6 GPa, 5 and 20 m/s, 64 columns), with the inlets of auto none of six
+SHORT = 2.0
 ENDS = "x_min", "x_max", "y_max"
 
 
@@ -119,6 +122,35 @@ def outlet(scene):
     """End of the domain (a) behind the rupture of the film, by the film formula."""
     s = Scales.of(scene)
     return _outlet(s, heated_film(scene) / s.h)
+
+
+def farther(scene, film):
+    """Option, for the end of a sentence, of a domain that is large enough for the film (a^2/R'), with cells of equal size; ""
+    if the present one is.
+    """
+    found = remedy(scene, film).items()
+    return with_ends(scene, {key: end for key, end in found if abs(end) > abs(getattr(scene.grid, key)) * (1 + 1e-9)})
+
+
+def with_ends(scene, ends):
+    """Option, for the end of a sentence, of a domain with these ends and cells of the present size; "" for none."""
+    if not ends:
+        return ""
+    sets, grid = [f"grid.{key}={end:g}" for key, end in ends.items()], same_cells(scene, **ends)
+    return Option(f"; {' '.join(f'--set {one}' for one in sets)} {grid} (same cells)",
+                  f"; {' and '.join([*sets, grid.words])} (same cells)")
+
+
+def too_short(scene):
+    """Sentence about a fixed end of the domain that is too near for the film by formula, with a remedy; "" otherwise."""
+    g, s = scene.grid, Scales.of(scene)
+    film = heated_film(scene) / s.h
+    gaps = {"x_min": inlet_gap(s, g.x_min), **({} if s.line else {"y_max": side_gap(s, g.y_max)})}
+    gap, key = min((gaps[key], key) for key in gaps)
+    if g.inlet == "starved" or isinstance(getattr(g, key), AutomaticValue) or 1 + gap / film > SHORT:
+        return ""
+    return (f"the gap at grid.{key} = {getattr(g, key):g} is only {1 + gap / film:.2f} times the film of the formula "
+            f"({film * s.h:.2g} m), so the domain is probably too short{farther(scene, film)}")
 
 
 def moved(scene):

@@ -63,3 +63,18 @@ def test_an_outlet_moves_behind_the_rupture_of_a_thick_film_and_is_told(name):
     assert f"to {g.x_max:g} a" in domain.moved(thick)
     assert thick.replace(**{"grid.x_max": 1.5}).grid.x_max == tehl.scene("gear").grid.x_max == 1.5
     assert domain.outlet(thick) == g.x_max
+
+
+@pytest.mark.parametrize("scene, end", [(tehl.scene("smooth-line"), {"grid.x_min": -1.2}), (BALL, {"grid.y_max": 1.2})])
+def test_a_fixed_end_within_the_film_is_too_short(scene, end):
+    """Not for a thin film, nor for ends by the program or by the option, nor where the scene starves the inlet."""
+    thick = scene.replace(**{**THICK, "hertz_pressure": 3e8, "grid.x_min": "auto", "grid.y_max": "auto"})
+    short, (key, value) = thick.replace(**end), *end.items()
+    text = domain.too_short(short)
+    s, film = Scales.of(short), float(re.search(r"of the formula \((\S+) m\)", text)[1])
+    gap = domain.side_gap(s, value) if key == "grid.y_max" else domain.inlet_gap(s, value)
+    assert text.startswith(f"the gap at {key} = {value:g} is only {1 + gap * s.h / film:.2f} times the film")
+    farther = {found: float(far) for found, far in re.findall(r"--set (\S+)=(\S+)", text)}
+    assert abs(farther[key]) > abs(value)
+    for enough in (thick, short.replace(**farther), scene.replace(**end), short.replace(**{"grid.inlet": "starved"})):
+        assert not domain.too_short(enough)

@@ -5,10 +5,10 @@ import math
 from tehl_taichi.march.accuracy.domain_error import CUT, SIDES
 from tehl_taichi.scene import domain
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.values.coded_text import Option
 from tehl_taichi.values.coded_warning import with_data
 
-MUCH, SOME = 0.01, 3e-3  # of the film: reported always; reported for ends that the user fixed on a grid with smaller errors
+# Of the film: reported always; reported for ends that the user fixed on a grid with smaller errors; a film that is unknown
+MUCH, SOME, ALL = 0.01, 3e-3, 1.0
 
 
 def short(store, summary):
@@ -19,16 +19,17 @@ def short(store, summary):
         return
     part, grid = parts["domain"] / steady["h_c_m"] - _by_outlet(steady), (parts["grid"] or 0.0) / steady["h_c_m"]
     if part > MUCH or part > max(grid, SOME) and not summary.get("domain", {}).get("auto"):
-        option = _farther(store.scene, steady)
+        option = domain.farther(store.scene, steady["h_c_m"] / Scales.of(store.scene).h)
+        change = f"{part:.1%}" if part <= ALL else "more than 100%, and with this domain the film is not known"
         yield with_data(f"the domain begins at {-g.x_min:g} a, where the gap is {steady['inlet_gap']:.2g} times the film; the "
-                        f"oil before it may change the film by {part:.1%}{option}", option, part=part)
+                        f"oil before it may change the film by {change}{option}", option, part=part)
 
 
 def cut_off(store, summary):
     """Warning about a film that ruptures behind the end of the domain."""
     scene, part = store.scene, _by_outlet(summary.get("steady", {}))
     if part > SOME:
-        option = _with_ends(scene, {"x_max": end} if (end := _behind(scene)) else {})
+        option = domain.with_ends(scene, {"x_max": end} if (end := _behind(scene)) else {})
         yield with_data(f"the film ruptures behind the end of the domain (grid.x_max = {scene.grid.x_max:g} a), which may "
                         f"change it by {part:.1%}{option}", option, part=part)
 
@@ -59,22 +60,7 @@ def near_sides(store, summary):
         return
     # the change falls with the square of the distance (1.5 um asperity of the gear: 3.2, 0.8, 0.1 % at 0.5, 1, 3 b)
     y_max = math.ceil(2 * g.y_max * math.sqrt(SIDES * change / MUCH)) / 2
-    option = _with_ends(store.scene, {"y_max": y_max})
+    option = domain.with_ends(store.scene, {"y_max": y_max})
     yield with_data(f"the features change the film at the sides of the domain (grid.y_max = {g.y_max:g} b) by {change:.1%}; "
                     f"the sides may change the numbers of the passage by {SIDES * change:.1%}{option}", option,
                     part=SIDES * change)
-
-
-def _farther(scene, steady):
-    """Options of a sufficiently large domain, with cells of the present size."""
-    found = domain.remedy(scene, steady["h_c_m"] / Scales.of(scene).h)
-    return _with_ends(scene, {key: end for key, end in found.items() if abs(end) > abs(getattr(scene.grid, key)) * (1 + 1e-9)})
-
-
-def _with_ends(scene, ends):
-    """Options of a domain with these ends and cells of the present size; "" for none."""
-    if not ends:
-        return ""
-    sets, grid = [f"grid.{key}={end:g}" for key, end in ends.items()], domain.same_cells(scene, **ends)
-    return Option(f"; {' '.join(f'--set {one}' for one in sets)} {grid} (same cells)",
-                  f"; {' and '.join([*sets, grid.words])} (same cells)")

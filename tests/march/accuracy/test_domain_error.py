@@ -359,5 +359,10 @@ def test_ends_that_are_far_enough_are_not_told():
     steady["error_parts"]["h_c_m"]["domain"] = 4e-9
     assert len([*domain_warnings.short(store, summary)]) == 1  # larger than that of the grid, and the user's own
     assert not [*domain_warnings.short(store, {**summary, "domain": {"auto": True}})]
+    for share, unknown in ((0.99, False), (6.37, True)):  # of the film
+        steady["error_parts"]["h_c_m"]["domain"] = share * steady["h_c_m"]
+        said, = domain_warnings.short(store, summary)
+        assert ("may change the film by more than 100%, and with this domain the film is not known" in said) == unknown
+        assert ("by 99.0%" in said) == (not unknown) and "637" not in said
     assert math.isclose(DomainError.from_values(DomainError(0.1, lost=0.4).values()).lost,
                         0.4) and not DomainError.from_values({}).film
