@@ -6,6 +6,7 @@ from tehl_cli.stdout import put
 
 MOST = 240  # columns of a table in a file
 NAME = 40  # characters of a first column that is not broken; sentences are
+WORD = 12  # characters of words that are never broken: half a number would be read as another one
 
 
 def cell(text, keep=""):
@@ -71,13 +72,15 @@ def list_table(title, columns, rows, whole=False):
     table = Table(title=cell(title, "\n"), title_justify="left")
     names = all(len(row[0]) <= NAME for row in rows)
     for n, column in enumerate(columns):
-        table.add_column(cell(column), no_wrap=n == 0 and names, overflow="fold")
+        words = [len(word) for text in (column, *(row[n] for row in rows)) for word in str(text).split()]
+        table.add_column(cell(column), no_wrap=n == 0 and names, overflow="fold",
+                         min_width=max((size for size in words if size <= WORD), default=None))
     for row in rows:
         table.add_row(*map(cell, row))
     console = Console()
     if whole and not console.is_terminal and "COLUMNS" not in os.environ:
         console = Console(width=max(console.width, Console(width=MOST).measure(table).maximum))
-    console.print(table)
+    console.print(table, crop=False)
 
 
 # scalar in the store -> column, factor, format

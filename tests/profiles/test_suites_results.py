@@ -127,6 +127,18 @@ def test_a_table_of_sentences_is_readable_on_80_columns(capsys, monkeypatch):
     assert "61.904" in shown and "Krylov" in shown and "not-to-be-broken-anywhere" in shown
 
 
+@pytest.mark.parametrize("width", [30, 40, 60])
+def test_narrow_terminals_break_no_number(monkeypatch, capsys, width):
+    """1.92 and 83 on two lines would be read as 1.92."""
+    from tehl_cli.tables import history_table
+
+    monkeypatch.setenv("COLUMNS", str(width))
+    scalars = {"step": 3.0, "p_max_Pa": 1.9283e9, "h_min_m": 3.91e-7, "newton": 4.0, "cycles": 26.0}
+    history_table(lambda name: [scalars.get(name, 3e-7)], [0])
+    row, = (line for line in capsys.readouterr().out.splitlines() if "e-" in line)
+    assert row.split()[1::2] == ["3", "1.9283", "0.3910", "3e-07", "3e-07", "3e-07", "4", "26"]
+
+
 def test_starts_are_confirmed_by_half_a_step_and_twice_the_columns(monkeypatch):
     """Films of 1 um + 0.01 um a column and 100 deg C + 1 K for half a step; one that stops on finer grids."""
     from tehl_taichi.errors import NotConverged
