@@ -43,8 +43,8 @@ def has_kernels():
 
 @functools.lru_cache(maxsize=1)
 def cache_dir():
-    """Writable folder of compiled kernels: the preferred one, or, with a warning, one for this process with a copy of its
-    contents (Taichi crashes at the end of the process if it cannot write its kernels).
+    """Writable folder of compiled kernels: the preferred one, or, with a warning, one for this process and those that it
+    starts, with a copy of its contents (Taichi crashes at the end of the process if it cannot write its kernels).
     """
     requested = preferred_cache()
     try:
@@ -59,9 +59,11 @@ def cache_dir():
 
 
 def _borrowed(requested):
-    """Folder for this process with a copy of the readable kernels."""
-    folder = Path(tempfile.mkdtemp(prefix="tehl-", dir=user_folders.temporary()))
-    atexit.register(_give_up, folder)
+    """Folder with a copy of the readable kernels, for this process, which removes it, and those that it starts."""
+    root = tempfile.mkdtemp(prefix="tehl-", dir=user_folders.temporary())
+    atexit.register(_give_up, root)
+    os.environ["TEHL_CACHE"] = root
+    (folder := preferred_cache()).mkdir()
     with contextlib.suppress(OSError):
         for file in requested.iterdir():
             shutil.copyfile(file, folder / file.name)  # without its mode
@@ -69,9 +71,10 @@ def _borrowed(requested):
 
 
 def _give_up(folder):
-    from tehl_taichi.engine.language import ti
+    if _started:
+        from tehl_taichi.engine.language import ti
 
-    ti.reset()  # it writes what it compiled
+        ti.reset()  # it writes what it compiled
     shutil.rmtree(folder, ignore_errors=True)
 
 

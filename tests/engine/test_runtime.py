@@ -135,6 +135,24 @@ def test_a_cache_that_cannot_be_written_costs_a_warning_only(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
+WORKERS = """
+from tehl_taichi.engine import runtime
+from tehl_taichi.runs.sweep import local_workers
+
+print(*{answer["cache"] for _, answer in local_workers.results(runtime.start, ["cpu", "cpu"], 2)})
+"""
+
+
+def test_workers_share_the_folder_in_place_of_such_a_cache_and_leave_nothing(tmp_path):
+    """They end at once, and would leave 3 MB each."""
+    (tmp_path / "file").touch()
+    environment = os.environ | {"TEHL_CACHE": str(tmp_path / "file"), "TMPDIR": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", WORKERS], env=environment, capture_output=True, text=True)
+    assert done.returncode == 0 and done.stderr.count("Warning") == 1
+    assert len(done.stdout.split()) == 1 and str(tmp_path) in done.stdout
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
 def test_a_process_that_leaves_at_once_has_written_its_kernels(tmp_path):
     ends = "import atexit; from tehl_taichi.engine import runtime; atexit.register(print, 'freed'); runtime.leave(9)"
     environment = os.environ | {"TEHL_CACHE": str(tmp_path)}
@@ -164,7 +182,7 @@ def test_kernels_that_can_be_read_are_used(no_cache_dir, monkeypatch, tmp_path):
     with pytest.warns(RuntimeWarning, match="cannot be kept in .*Permission denied"):
         other = runtime.cache_dir()
     assert other != wanted and (other / "kernel").read_text() == "compiled"
-    runtime.shutil.rmtree(other)
+    runtime.shutil.rmtree(other.parent)
 
 
 def test_the_fatigue_search_starts_taichi_itself(monkeypatch):

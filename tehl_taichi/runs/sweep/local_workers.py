@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from tehl_taichi.disk import memory_limit
+from tehl_taichi.engine import runtime
 from tehl_taichi.runs.sweep.job import LostJob, in_one_thread
 
 SHARE = 0.95  # of the part of a worker in the memory that is available
@@ -24,6 +25,7 @@ DIED = "its worker died, also at the second attempt (killed, or out of memory)"
 
 def results(work, jobs, workers, tick=None):
     """Run jobs: see :func:`tehl_taichi.runs.sweep.pool.results`."""
+    runtime.cache_dir()  # else each worker would borrow its own, and leave it behind
     crew = LocalWorkers(workers, tick or (lambda: None))
     try:
         yield from crew.results(work, iter(enumerate(jobs)))
