@@ -5,6 +5,7 @@ import atexit
 import codecs
 import contextlib
 import gc
+import io
 import os
 import signal
 import sys
@@ -25,6 +26,7 @@ def main():
     end = {"code": FAILED}
     atexit.register(_leave, end)  # the first that is registered is the last that is called
     try:
+        _open_closed_streams()
         _stop_as_ctrl_c_does()
         _print_in_any_encoding()
         code = _run()
@@ -166,6 +168,16 @@ def _stop_again(dropped):
     again = threading.Timer(AGAIN, _thread.interrupt_main, [number])
     again.daemon = True
     again.start()
+
+
+def _open_closed_streams():
+    """Lead the standard streams that the caller closed (`>&-`, services) nowhere; a result file would get their numbers."""
+    while (number := os.open(os.devnull, os.O_RDWR)) <= 2:
+        os.set_inheritable(number, True)
+    os.close(number)
+    for number, name in ((1, "stdout"), (2, "stderr")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, io.TextIOWrapper(io.BufferedWriter(io.FileIO(number, "w", closefd=False)), "utf-8"))
 
 
 def _print_in_any_encoding():

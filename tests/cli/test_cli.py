@@ -260,3 +260,18 @@ def test_fatigue_again_with_other_constants(finished, tmp_path):
                         (("--from-x", "9"), "0 stored moments"), (("--depths", "a"), "50e-6"), (("--kappa", "-1"), "kappa")):
         bad = tehl("fatigue", "run.zarr", *words, cwd=tmp_path)
         assert bad.returncode == 2 and what in bad.stderr and len(bad.stderr.splitlines()) == 1, bad.stderr
+
+
+@pytest.mark.parametrize("closed", [(1,), (2,), (0, 1, 2)])
+def test_closed_streams_are_nowhere(tmp_path, closed):
+    """As `>&-` and some services close them: a file of the store would get the number, and what is printed with it."""
+    def close():
+        for number in closed:
+            os.close(number)
+
+    words = "run", "smooth-line", "--isothermal", "--grid", "64", "--threads", "2", "--out", "a.zarr"
+    done = subprocess.run([*CALL, *words], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=close)
+    assert done.returncode == 0 and tehl_taichi.open(tmp_path / "a.zarr").finished
+    refused = subprocess.run([*CALL, "show", "none.zarr"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                             preexec_fn=close)
+    assert refused.returncode == 2 and not refused.stdout and bool(refused.stderr) == (2 not in closed)
