@@ -15,7 +15,7 @@ from pathlib import Path
 
 from tehl_taichi import __version__
 from tehl_taichi.engine import allocator, cores, float_mode, user_folders
-from tehl_taichi.errors import RuntimeUnavailable
+from tehl_taichi.errors import RuntimeUnavailable, brief
 
 ARCHES = ("cpu", "cuda", "vulkan")  # that the kernels have been checked on
 DRIVER = "libcuda.so.1"
@@ -132,7 +132,7 @@ def _start(arch, threads):
     from tehl_taichi.engine.taichi_patches import rolled_loops
 
     # in a notebook prints do not go to file 1
-    with float_mode.kept(), _no_banner(), contextlib.redirect_stdout(None), cores.pinned(threads):
+    with _start_errors(), float_mode.kept(), _no_banner(), contextlib.redirect_stdout(None), cores.pinned(threads):
         ti.init(arch=getattr(ti, arch), default_fp=ti.f64, fast_math=False, cpu_max_num_threads=threads, log_level=ti.ERROR,
                 # its own optimisation passes take 40 s for the Findley search (2 s without) and gain nothing over LLVM's
                 advanced_optimization=False,
@@ -150,6 +150,18 @@ def _start(arch, threads):
                       RuntimeWarning, stacklevel=2)
     _started.update(arch=arch, threads=threads, taichi=".".join(map(str, ti.__version__)), cache=cache)
     _home = os.getpid(), threading.get_ident()
+
+
+@contextlib.contextmanager
+def _start_errors():
+    """Context manager: Taichi's own errors, as without its GB of address space (`ulimit -v`), become a RuntimeUnavailable."""
+    try:
+        yield
+    except RuntimeUnavailable:
+        raise
+    except RuntimeError as error:
+        raise RuntimeUnavailable(f"Taichi does not start: {brief(error).rstrip('.')}; it needs more than 1 GB of address space "
+                                 "(`ulimit -v`)") from None
 
 
 def ensure():

@@ -135,6 +135,27 @@ def test_a_cache_that_cannot_be_written_costs_a_warning_only(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
+SHORT_OF_ADDRESSES = """
+import resource
+import taichi
+from tehl_taichi.disk import memory_limit
+from tehl_taichi.engine import runtime
+
+used = memory_limit._table(memory_limit.STATUS)["VmSize"]
+resource.setrlimit(resource.RLIMIT_AS, (int(used + 5e8), resource.RLIM_INFINITY))
+try:
+    runtime.start(threads=1)
+except runtime.RuntimeUnavailable as error:
+    print(error)
+"""
+
+
+def test_a_start_without_enough_addresses_is_refused_in_a_sentence():
+    done = subprocess.run([sys.executable, "-c", SHORT_OF_ADDRESSES], capture_output=True, text=True)
+    said, = (line for line in done.stdout.splitlines() if "does not start" in line)
+    assert said.endswith("it needs more than 1 GB of address space (`ulimit -v`)")
+
+
 WORKERS = """
 from tehl_taichi.engine import runtime
 from tehl_taichi.runs.sweep import local_workers
