@@ -82,6 +82,13 @@ def test_a_number_that_grids_do_not_resolve_has_no_bar():
     assert bar([GridReading(1.0), GridReading(5e-6, doubt="touches", lost=True)]) == (None, "touches")
 
 
+def test_an_extreme_is_blurred_by_its_own_grid_and_moves_by_cells_of_the_coarser_one():
+    same = [GridReading(1.0, blur=blur) for blur in (0.3, 0.2, 0.1)]
+    assert bar(same)[0] == pytest.approx(1.5 * 0.1)
+    pairs = [bar([GridReading(1.0, 0.0, (0.0,), 0.2), GridReading(1.01, 0.0, (at,), 0.1)])[0] for at in (0.7, 0.9)]
+    assert pairs[0] is not None and pairs[1] is None  # more than four of 0.2
+
+
 NARROW = "a few cells wide"
 QUIET = (2.0e9, 2.0e9, 2.0e9)  # of a part of the passage, on three grids
 
@@ -330,6 +337,26 @@ def test_an_index_that_grows_towards_the_surface_as_far_as_a_grid_sees_is_not_kn
     assert coarse_runs._shallow("a:Fi_max", coarse_runs.indices({"a": {"Fi_max": 0.7}})) == ""
 
 
+@pytest.mark.parametrize("averaged, known", [(0.6, False), (0.8, True)])
+def test_averaged_stresses_below_are_compared_with_averaged_ones_at_the_surface(averaged, known):
+    wide = {"Fi_max": averaged, "below": {"Fi_max": 0.7, "depth_m": 3e-6}}
+    found = coarse_runs.indices({"a": {"Fi_max": 1.4 - averaged, "below": {"searched_m": [3e-6, 3e-4]}, "averaged": wide}})
+    assert (coarse_runs._shallow("a:below_averaged_Fi_max", found) == "") == known
+
+
+def test_coarse_grid_runs_take_steps_in_proportion_to_their_cells():
+    """So that they end where the run ends."""
+    cut = short(**{"grid.nx": 128, "grid.ny": 32, "time.steps": 8})
+    assert [(one.grid.nx, one.time.steps) for one in coarse_runs.scenes(cut)[0]] == [(32, 2), (64, 4)]
+    whole = short(**{"grid.nx": 128, "grid.ny": 32, "time.steps": -1})
+    assert [one.time.steps for one in coarse_runs.scenes(whole)[0]] == [-1, -1]
+
+
+@pytest.mark.parametrize("at, code", [(-0.8, "peak"), (0.3, "peak"), (0.8, "exit")])
+def test_a_narrow_peak_is_at_the_exit_only_behind_the_middle(at, code):
+    assert readings.doubt(np.array([at]), 0.9, 0, 1.0).code == code
+
+
 def test_companions_use_the_tables_of_the_run(passage):
     """Others would compile all kernels anew."""
     from tehl_taichi.engine import field_pool
@@ -418,6 +445,8 @@ def test_a_narrow_peak_at_any_moment_leaves_pressure_and_fatigue_unknown(passage
         for shot, field in zip(passage.items, kept):
             shot.fields["pressure"][...] = field
     assert "exit not resolved: a pressure peak of 90% of the largest" in after["p_max_Pa"].doubt and after["a:Fi_max"].doubt
+    middle = min(passage.items[1:], key=lambda shot: abs(shot.feature_x))
+    assert before["middle_h_min_m"].value == middle.fields["film"].min()
     assert not after["h_min_m"].doubt and alone == {name: after[name].doubt for name in ("p_max_Pa", "a:Fi_max")}
 
 

@@ -68,6 +68,17 @@ def test_rows_beside_a_resolved_peak_are_a_part_of_it():
     assert 0.75 < field[62, 5] < 0.85 and field[60, 6] > 0.96 and sharpest(field)[0] == 0.0
 
 
+@pytest.mark.parametrize("steep", [1, -1])
+def test_a_mirrored_pressure_has_the_mirrored_peak(steep):
+    """Steep on one side, flat on the other: what is left two cells away is the mean of both."""
+    field = hertz()
+    field[60:66] = np.array([2.4, 2.6, 2.8, 3.0, 1.0, 0.5])[:, None]  # 2.6 and 0.5 of 3.0: 0.52
+    at = 63 if steep > 0 else 96 - 63
+    assert sharpest(field[::steep]) == (1.0, (at, 0))
+    field[65] = 2.3  # 0.82
+    assert sharpest(field[::steep])[0] == 0.0
+
+
 @pytest.mark.usefixtures("taichi_cpu")
 @pytest.mark.parametrize("M, L, known", [(235.8, 23.18, False), (200.0, 8.0, True)])
 def test_the_largest_pressure_of_a_circle_is_unknown_where_finer_grids_have_another(M, L, known):

@@ -60,6 +60,10 @@ def test_only_features_that_end_between_the_sides_of_a_line_contact_count():
     for other in (scene("smooth-line"), replace(scene("ball-on-disc"), features=gear.features),
                   scene("furrow-line"), gear.replace(**{"feature.y": 0.95 * edge})):
         assert side_change(other, films(other, last=[1.2], first=[1.2])) == 0.0
+    there, = gear.replace(**{"feature.y": 0.95 * edge}).features
+    for both in ((*gear.features, there), (replace(there, y=-there.y),)):  # one of two, or at the other side
+        other = replace(gear, features=both)
+        assert side_change(other, films(other, last=[1.2], first=[1.2])) == 0.0
     assert side_change(gear, Films(gear, np.ones((1, 81, 9)))) == 0.0
 
 
