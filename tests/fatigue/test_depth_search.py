@@ -25,6 +25,16 @@ NU = 0.3
 DEPTHS = [0.0, 2e-6, 15e-6, 80e-6]
 
 
+def test_stresses_between_rungs_follow_as_many_rungs_of_either_side():
+    """What is odd about the middle of two rungs is zero there, a quintic too, which no cubic is."""
+    logs = 0.4 * np.arange(8.0)
+    for rung in range(1, 6):
+        middle = 0.5 * (logs[rung] + logs[rung + 1])
+        histories = ((logs - middle) ** 5)[:, None, None, None] * np.ones((1, 2, 3, 6))
+        found = depth_profile._between(SimpleNamespace(varies_in_residual=False), logs, histories, middle)
+        np.testing.assert_allclose(found, 0.0, atol=1e-12)
+
+
 @pytest.mark.parametrize("line,mirrored,row", [(True, True, 0), (True, True, 3), (False, True, 2), (False, False, 5)])
 def test_rows_are_those_of_the_whole_plane(line, mirrored, row):
     x, y = np.arange(24) * 11e-6, np.arange(9) * 7e-6
@@ -257,6 +267,24 @@ def test_rows_that_look_bad_at_some_depth_are_named(taichi_cpu, monkeypatch, wor
     least, = candidate_rows._ranges(passage, rungs[4], [np.array(early)])
     most, = candidate_rows._ranges(passage, rungs[4], [slice(None)])
     assert (least <= most).all() and least.max() < 0.7 * most.max()
+
+
+def test_rows_are_chosen_by_the_strength_of_their_depth(monkeypatch):
+    """Half of the strength at the second measured depth."""
+    y = np.arange(5.0)
+    measures = iter([np.array([[0.0, 1.0, 0.0, 0.9, 0.0]]), np.array([[0.0, 0.0, 0.0, 0.0, 0.8]])])
+    monkeypatch.setattr(candidate_rows, "_ranges", lambda *_: [next(measures)])
+    strength = SimpleNamespace(at=lambda depth: SimpleNamespace(share=2.0 if depth > 1 else 1.0))
+    passage = SimpleNamespace(x=np.zeros(1), y=y, rows=slice(3, 8), a=1.0, strength=strength)
+    assert candidate_rows.rows(passage, np.arange(4.0), [slice(None)]) == [3 + 4, 3 + 1]
+
+
+def test_a_stress_that_is_equal_in_all_directions_has_no_shears():
+    stress = dict(zip(half_space.COMPONENTS, 1e8 * np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]).reshape(6, 1, 1)))
+    assert not candidate_rows._shears(stress).any()
+    for axis in ("sxx", "syy", "szz"):
+        pulled = {**stress, axis: stress[axis] + 1e8}
+        assert sorted(np.abs(candidate_rows._shears(pulled)).ravel()) == [0.0] * 4 + [0.5e8] * 2
 
 
 def test_depths_beyond_the_rungs_are_interpolated_well(taichi_cpu):

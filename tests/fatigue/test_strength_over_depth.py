@@ -1,6 +1,7 @@
 """The index by a strength that varies with depth: a constant table is the plain number, another one moves the worst depth."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment
 from tehl_taichi.fatigue.search_result import LIMITS
 from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.fatigue.worst_point import worst_of
 from tehl_taichi.report import scene_text
 from tehl_taichi.runs.summary import limit_meaning, search_rows, summary_rows
 from tehl_taichi.scene.scales import Scales
@@ -51,6 +53,11 @@ def test_a_constant_table_is_the_plain_number_bit_for_bit(plain):
         np.testing.assert_array_equal(found.maps[name][0], values)
     for name in LIMITS:
         np.testing.assert_array_equal(found.index(name), plain.index(name))
+
+
+def test_of_two_depths_the_larger_index_is_worse_not_the_larger_stress():
+    hard, soft = (SimpleNamespace(f=f, share=share, compared=f * share) for f, share in ((5e8, 1.0), (4e8, 1.5)))
+    assert worst_of([hard, soft]) is worst_of([soft, hard]) is soft
 
 
 def test_each_depth_has_its_own_limit_and_kappa(case):

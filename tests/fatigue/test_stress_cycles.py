@@ -64,6 +64,21 @@ def test_tension_counts_while_a_cycle_lasts():
     assert found[1] == 0 and found[2] == 4 and 1 <= found[0] <= 3
 
 
+@pytest.mark.parametrize("size, counts", [(50e6, {1, 2, 3, 4}), (20e6, {0})])
+def test_under_an_equal_stress_in_all_directions_normal_and_mean_stress_are_one(size, counts):
+    """Four waves of up to 90 MPa, the third the largest; tension while a half of one lasts."""
+    x = np.linspace(0, 2 * np.pi * 4, 801)
+    shear, found = 90e6 * np.sin(x) * (1 - 1e-3 * abs(x - 14)), []
+    for first in np.pi * np.arange(8):
+        stress = history(shear, np.where((x > first + 0.2) & (x < first + 2.9), size, -size))
+        stress[:, :2] = stress[:, 2:3]
+        each = [SimpleNamespace(criterion=name, kappa=0.3, endurance=1e8) for name in ("findley", "dang-van")]
+        one, other = (stress_cycles.above(stress, np.array([0.0, 0.0, 1.0]), local) for local in each)
+        assert one == other
+        found.append(one)
+    assert set(found) <= counts and len(set(found)) > (size > 3e7)
+
+
 def test_the_direction_of_the_shear_does_not_matter():
     x = np.linspace(0, 2 * np.pi * 3, 601)
     turned = np.zeros((602, 6))

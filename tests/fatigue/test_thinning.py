@@ -63,6 +63,12 @@ def test_what_stands_still_has_two_ends(taichi_cpu):
     np.testing.assert_array_equal(kept(np.ones((20, 6))), [0, 19])
 
 
+def test_a_path_that_turns_back_on_its_line_keeps_where_it_turns(taichi_cpu):
+    history = np.zeros((31, 6))
+    history[:, 3] = 1e8 * np.minimum(np.arange(31), 40 - np.arange(31))  # to 20 and back to 10
+    np.testing.assert_array_equal(kept(history), [0, 20, 30])
+
+
 def test_a_moment_that_was_left_out_counts(taichi_cpu):
     """Torsion that rises to 100 MPa, and by a ten-thousandth of it for one moment."""
     history = np.zeros((1, 41, 6))

@@ -132,6 +132,16 @@ def test_results_of_the_runs_come_into_record_and_tables(tmp_path, monkeypatch):
     assert rows["h_c, um"][0] == f"{found.rings['inner']['R_x_m'] * 1e6:.3f}"
 
 
+def test_errors_are_printed_in_the_unit_of_their_number(dry):
+    """Two digits of an error of 2.3 % in every row."""
+    summary = {"steady": {"h_c_m": 1.008e-6, "error": {"h_c_m": 0.023e-6}},
+               "transient": {"p_max_Pa": 1.008e9, "error": {"p_max_Pa": 0.023e9}}}
+    rings = {name: {**one, "summary": summary} for name, one in dry.rings.items()}
+    tables = bearing_table.tables(Bearing(dry.folder, {**dry.record, **rings}))
+    rows = {label: inner for table in tables.values() for label, inner, _ in table}
+    assert rows["h_c, um"] == rows["largest pressure, GPa"] == "1.008 ± 0.023"
+
+
 @pytest.mark.parametrize("summary, title", [({"von_mises": {"max_Pa": 1e9}}, "stress"),
                                             ({"von_mises": {"max_Pa": 1e9}, "transient": {"p_max_Pa": 2e9}}, PASSAGE)])
 def test_stresses_of_smooth_contacts_are_of_no_feature(dry, summary, title):

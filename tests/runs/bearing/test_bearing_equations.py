@@ -255,5 +255,9 @@ def test_an_axial_load_that_tapered_rollers_cannot_balance_is_refused():
     from tehl_taichi.errors import SceneError
 
     bearing = RollingBearing(**ROLLERS, contact_angle=15.0, taper=4.0, load=3000.0, axial=100.0)
-    with pytest.raises(SceneError, match=r"axial = 100 N is too little .* allowed: at least 8\d\d\.?\d* N, or 0 N"):
+    with pytest.raises(SceneError, match=r"axial = 100 N is too little .* allowed: at least 8\d\d\.?\d* N, or 0 N") as said:
         solved(bearing)
+    least = float(str(said.value).partition("at least ")[2].split()[0])
+    assert solved(dataclasses.replace(bearing, axial=1.001 * least)).axial_load == pytest.approx(1.001 * least)
+    with pytest.raises(SceneError, match="is too little"):
+        solved(dataclasses.replace(bearing, axial=0.999 * least))

@@ -1,11 +1,15 @@
 """Numbers of a summary by their names."""
 
 import math
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from tehl_taichi.errors import UnknownName
 from tehl_taichi.runs.summary import search_rows, summary_numbers
+from tehl_taichi.runs.summary import summary as summaries
+from tehl_taichi.scene import scene
 
 WHY = "no oil reaches this friction"
 NO_VERDICT = {"steady": {"h_c_m": 4e-7, "error": {"h_c_m": 1e-9}},
@@ -41,3 +45,20 @@ def test_the_bar_of_a_stress_is_the_same_part_of_it_as_that_of_its_index():
     found = {"Fi_max": 1.2, "error": {"Fi_max": 0.06}, "findley_stress_max_Pa": 6e8}
     row = search_rows._judged_stress(found, "findley")
     assert row.error / row.number == pytest.approx(0.05)
+
+
+def test_the_film_over_the_roughness_has_the_relative_error_of_the_film():
+    found = summaries._roughness(scene("rough"), {"h_c_m": 4e-7, "error": {"h_c_m": 2e-8}})
+    assert found["error"]["lambda"] / found["lambda"] == pytest.approx(0.05)
+
+
+def test_the_most_iterations_of_a_step_are_of_a_single_step():
+    """Entries after 1, 3 and 4 steps."""
+    series = {"step": [0, 1, 3, 4], "cycles": [90, 10, 30, 14], "newton": [9, 2, 4, 3], "rejected": [0, 0, 1, 0]}
+
+    class Stored(SimpleNamespace):
+        def __len__(self):
+            return 4
+
+    found = summaries._work(Stored(scalar=lambda name: np.array(series[name])))
+    assert found["cycles_per_step_max"] == 15 and found["pressure_cycles"] == 144 and found["rejected_steps"] == 1
