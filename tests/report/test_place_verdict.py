@@ -48,6 +48,12 @@ def test_a_known_error_decides_before_a_larger_index_without_one():
     assert text == "Probably yes: the fatigue limit is exceeded at the surface at point A; the error of this is unknown."
 
 
+def test_the_thinnest_film_is_named_with_its_place():
+    steady = [{"steady": {"h_min_m": film, "error": {"h_min_m": 2e-9}}} for film in (3e-7, 1e-7, 2e-7)]
+    rows = [(name, 1e9, summary) for name, summary in zip("ABCD", [*steady, None])]
+    assert place_verdict.thinnest(rows) == ("0.1000 ± 0.0020 µm", "B") and place_verdict.thinnest(rows[3:]) is None
+
+
 def test_a_place_is_judged_by_its_resolved_part():
     """The whole passage of D has the largest index, which its grid does not resolve; E decides."""
     text, tone, sentences = answer(D=search(2.3, None, (1.25, 0.02)), E=search(1.9, None, (1.6, 0.03)))

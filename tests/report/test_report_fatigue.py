@@ -10,7 +10,7 @@ from read_pages import numbers, page, values
 
 import tehl_taichi as tehl
 from tehl_taichi.march.accuracy import readings
-from tehl_taichi.report import chain_plot
+from tehl_taichi.report import chain_plot, number_text, run_tables
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import Reason
 
@@ -126,3 +126,20 @@ def test_a_cut_passage_says_so(tmp_path):
     cut = made_results.THERMAL.replace(**{"time.steps": 4})
     text = page(made_results.run(tmp_path / "a.zarr", cut, 5, made_results.fatigue()), tmp_path).text
     assert "inside the contact; later moments are not part of these numbers" in text and "rest of the passage" not in text
+
+
+def test_every_row_of_the_critical_points_has_its_own_number():
+    keys = {key: unit for _, key, unit in run_tables.POINT if key != "Fi_max"}
+    of = {key: (1.25 + 0.1 * n) * {"Pa": 1e8, "m": 1e-5}.get(unit, 1.0) for n, (key, unit) in enumerate(keys.items())}
+    top = {key: value for key, value in of.items() if key != "depth_m"}
+    found = run_tables.worst_points({**top, "Fi_max": 0.5, "below": {**of, "Fi_max": 0.7}}, THERMAL).data["rows"]
+    rows = {label.partition(" of the ")[0]: texts for label, *texts in found}
+    assert [rows[axis] for axis in "xy"] == [[number_text.value_text(of[f"{axis}_m"], unit="m")] * 2
+                                                                   for axis in "xy"]
+    assert rows["index Fi"] == ["0.5", "0.7"] and rows["depth"] == ["0 µm", number_text.value_text(of["depth_m"], unit="m")]
+    assert len(set(map(tuple, rows.values()))) == len(rows) == len(run_tables.POINT)
+
+
+def test_places_in_a_scan_are_those_from_its_own_middle():
+    scan = SimpleNamespace(x=3e-4, y=-2e-4, position_in_file=lambda *place: place)
+    assert run_tables.in_file(SimpleNamespace(features=[scan]), 3.5e-4, 1e-4) == pytest.approx((0.5e-4, 3e-4))

@@ -51,6 +51,22 @@ def test_a_surface_that_holds_over_a_depth_that_does_not():
     assert [where for where, *_ in layers] == ["at the surface", "25 µm below the surface"]
 
 
+@pytest.mark.parametrize("Fi, error", [(1.0, None), (1.5, 0.5), (0.5, 0.5)])
+def test_an_index_whose_bar_just_reaches_1_is_within_it(Fi, error):
+    assert judged_layers.judged(Fi, error) == judged_layers.WITHIN
+
+
+@pytest.mark.parametrize("deep, early", [(0.05, False), (None, True)])
+def test_averaged_stresses_settle_an_answer_only_at_and_below_the_surface(deep, early):
+    """Where no error of stresses at points is known; else the resolved part decides."""
+    def part(error, **more):
+        return {"Fi_max": 1.2, "error": {"Fi_max": error}, **more}
+
+    wide = part(0.05, length_m=1e-5, below=part(deep, depth_m=2e-5))
+    found = part(None, resolved=part(0.1), below=part(None, depth_m=2e-5), averaged=wide)
+    assert judged_layers.deciding({"a": found})[1] == early
+
+
 def test_digits_follow_the_error():
     assert number_text.value_text(1.00812, 0.0231) == "1.008 ± 0.023" and number_text.value_text(4.0247e9, 1.767e7,
                                                                                                  "Pa") == "4.025 ± 0.018 GPa"

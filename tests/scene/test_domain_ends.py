@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 
 import tehl_taichi as tehl
@@ -21,6 +22,19 @@ def test_far_beside_an_ellipse_the_gap_is_that_of_the_rigid_bodies(ratio):
     assert domain.side_gap(s, Y) == pytest.approx((Y * s.b) ** 2 / (2 * scene.contact.radius_y) / s.h, rel=0.02)
 
 
+@pytest.mark.parametrize("heat, least", [(False, domain.GAPS), (True, domain.HEATED)])
+def test_an_automatic_inlet_is_the_nearest_where_film_and_gap_are_enough_films(heat, least):
+    """Of film and gap together; in steps of 8 % of the speed."""
+    line, found = tehl.scene("smooth-line").replace(**{**THICK, "hertz_pressure": 5e8, "thermal.on": heat}), []
+    for speed in np.geomspace(1.0, 50.0, 45):
+        scene = line.replace(speed=float(speed))
+        s, end = Scales.of(scene), -scene.grid.x_min
+        films = [1 + domain.inlet_gap(s, X) * s.h / domain.heated_film(scene) for X in domain.INLETS]
+        found.append(end)
+        assert end == next(X for X, count in zip(domain.INLETS, films) if count >= least)
+    assert len(set(found)) > 1
+
+
 def test_a_passage_asks_for_a_longer_domain_than_its_start():
     scene = tehl.scene("gear").replace(**THICK)
     passage, start = (domain.within(one, 3e-3).grid.x_min for one in (scene, scene.replace(**{"time.steady_only": True})))
@@ -29,10 +43,12 @@ def test_a_passage_asks_for_a_longer_domain_than_its_start():
 
 def test_ends_that_are_advised_leave_as_little_as_they_say():
     """At both ends, by the law of what an end costs: a part of (gap over film)^(-3/2)."""
-    s, film = Scales.of(BALL), 0.05
-    found = domain.remedy(BALL, film)
-    for gap, part in ((domain.inlet_gap(s, found["x_min"]), domain.INLET), (domain.side_gap(s, found["y_max"]), domain.SIDE)):
-        assert domain.LEFT["point"] * ((1 + gap / film) / part) ** -1.5 <= domain.LITTLE
+    s = Scales.of(BALL)
+    for film in np.geomspace(0.03, 0.3, 40):
+        found = domain.remedy(BALL, film)
+        for gap, part in ((domain.inlet_gap(s, found["x_min"]), domain.INLET),
+                          (domain.side_gap(s, found["y_max"]), domain.SIDE)):
+            assert domain.LEFT["point"] * ((1 + gap / film) / part) ** -1.5 <= domain.LITTLE
 
 
 def test_an_advised_grid_keeps_the_size_of_the_cells():

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tehl_taichi.values.digits import with_error
+from tehl_taichi.values.digits import micrometres, with_error
 
 ROOT = Path(__file__).parents[2]
 
@@ -27,6 +27,11 @@ def test_value_and_error_have_the_same_decimals():
             text = with_error(1.2345 * 10.0**power, 1.2345 * ratio * 10.0**power)
             found = re.match(r"\(?(-?\d+(?:\.(\d+))?) ± (\d+(?:\.(\d+))?)", text)
             assert found and found[2] == found[4] or len(found[2]) == len(found[4]), found
+
+
+@pytest.mark.parametrize("length, shown", [(9.74e-6, "9.7"), (9.94e-6, "9.9"), (9.96e-6, "10"), (183.4e-6, "183"), (0.0, "0")])
+def test_lengths_below_ten_micrometres_have_two_digits(length, shown):
+    assert micrometres(length) == shown
 
 
 def test_nothing_else_writes_a_plus_minus():

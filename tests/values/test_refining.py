@@ -21,6 +21,7 @@ def test_a_mirror_is_one():
     assert np.allclose(matrix(4, 10, 6, True) @ x**4, fine**4, atol=1e-9)
     near = matrix(4, 10, 2, True) @ x
     assert np.allclose(near, fine)
+    assert np.allclose(matrix(4, 10, 6, True, True) @ x**5, fine**5, atol=1e-9)  # odd ones with the other sign there
 
 
 def test_a_part_is_that_of_the_whole():

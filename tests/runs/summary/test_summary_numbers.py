@@ -10,6 +10,7 @@ from tehl_taichi.errors import UnknownName
 from tehl_taichi.runs.summary import search_rows, summary_numbers
 from tehl_taichi.runs.summary import summary as summaries
 from tehl_taichi.scene import scene
+from tehl_taichi.values.estimate import Quantity
 
 WHY = "no oil reaches this friction"
 NO_VERDICT = {"steady": {"h_c_m": 4e-7, "error": {"h_c_m": 1e-9}},
@@ -62,3 +63,8 @@ def test_the_most_iterations_of_a_step_are_of_a_single_step():
 
     found = summaries._work(Stored(scalar=lambda name: np.array(series[name])))
     assert found["cycles_per_step_max"] == 15 and found["pressure_cycles"] == 144 and found["rejected_steps"] == 1
+
+
+def test_a_relative_error_is_of_the_size_of_its_number():
+    assert Quantity(-2e-4, 1e-5).relative == Quantity(2e-4, 1e-5).relative == pytest.approx(0.05)
+    assert Quantity(0.0, 1e-5).relative is None is Quantity(1.0, None).relative
