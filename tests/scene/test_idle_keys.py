@@ -3,6 +3,7 @@
 import dataclasses
 import itertools
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -246,6 +247,22 @@ def test_a_sweep_says_which_cases_are_equal():
     assert found.refused() == {} and found.equal() == {3: 2}
     law = plan(SCENES["smooth"], {"rheology.law": ["limiting", "eyring"], "rheology.tau_0": [1e6, 1e8]})
     assert law.refused() == {} and law.equal() == {1: 0}
+
+
+def test_cases_that_differ_in_what_nothing_follows_from_are_equal():
+    assert plan(GEAR, {"oil.source": ["one", "another"], "srr": [0.1, 0.2]}).equal() == {2: 0, 3: 1}
+
+
+def test_no_window_where_nothing_passes_is_what_is_so():
+    said = [[one.split()[0] for one in idle_keys.doubts(SCENES["smooth"].replace(**{"zoom.factor": n}))] for n in (0, 4)]
+    assert "zoom.factor" not in said[0] and "zoom.factor" in said[1]
+
+
+def test_a_law_that_uses_a_number_uses_it_at_zero_too():
+    for number in (0.0, 1e-9, -3.0):
+        values = SimpleNamespace(used=number, other=number)
+        assert idle_keys._changes(lambda given: [given.used], values, "used")
+        assert not idle_keys._changes(lambda given: [given.used], values, "other")
 
 
 def test_a_sweep_tells_what_has_no_effect_in_any_case():
