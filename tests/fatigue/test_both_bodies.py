@@ -52,6 +52,25 @@ def test_the_window_of_b_is_what_the_feature_slides_over():
     np.testing.assert_allclose(np.diff(other.centres), PACE * np.diff(other.positions), rtol=1e-9)
 
 
+def test_the_counted_moments_are_those_of_the_feature_for_both_bodies():
+    scene = gear(**SLIP, **{"fatigue.from_x": -0.5, "fatigue.to_x": 0.75})
+    for surface in scene.surfaces:
+        passage = StressHistories(scene, reader := Formula(scene), reader.centres, surface=surface)
+        inside = (reader.centres >= -0.5 * passage.a) & (reader.centres <= 0.75 * passage.a)
+        np.testing.assert_allclose(passage.positions, reader.centres[inside], rtol=1e-12)
+
+
+@pytest.mark.parametrize("place", [0.0, 0.4, -0.7])
+def test_a_feature_beside_the_first_one_meets_other_points_as_it_enters_and_leaves(place):
+    """Where its centre is at -a and at a, over the points of b that are there then."""
+    scene = gear(**SLIP, **{"feature.x": place * Formula(gear(**SLIP)).a})
+    b = next(s for s in scene.surfaces if s.name == "b")
+    passage = StressHistories(scene, reader := Formula(scene), reader.centres, surface=b)
+    feature, moved = scene.features[0], [side * passage.a - scene.features[0].x for side in (-1, 1)]
+    inside = np.clip(moved, reader.centres[0], reader.centres[-1])
+    assert passage.passed(feature) == pytest.approx(tuple(feature.x + inside - PACE * inside))
+
+
 def test_fractions_of_a_cell_are_exact_for_polynomials_of_degree_five():
     x = np.arange(20.0)
     fields = np.stack([x**n for n in range(6)], axis=-1)

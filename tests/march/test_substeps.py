@@ -25,6 +25,13 @@ def test_whole_steps_stay_whole():
     assert marched(5, 1.0) == ([1.0] * 5, 0)
 
 
+def test_a_smaller_rest_of_a_step_does_not_change_the_size():
+    parts = Substeps(part=0.5, left=0)
+    before = parts.state()
+    parts.accept(parts.next(0.75))
+    assert parts.state() == before and parts.next(0.0) == 0.5
+
+
 def test_a_single_failure_costs_two_halves():
     parts = Substeps()
     assert parts.reject(1.0) and parts.next(0.0) == 0.5

@@ -55,6 +55,18 @@ def test_shear_along_y_is_shear_along_x_turned():
     np.testing.assert_allclose((syy, sxx, sxy), rectangle.shear_x_coefficients(-1.3, 0.9, 0.4, 0.5, NU), rtol=1e-14)
 
 
+@pytest.mark.parametrize("depth", [0.0, 0.4])
+def test_a_line_without_loads_at_its_side_is_a_point_contact(depth):
+    """Nothing continues along y."""
+    rng = np.random.default_rng(4)
+    loads = rng.normal(size=(3, 9, 5))
+    loads[..., -1] = 0.0
+    x, y = np.arange(9) * 0.3, np.arange(5) * 0.2
+    line, point = (hs.HalfSpaceStress(x, y, NU, line, depth=depth)(*loads) for line in (True, False))
+    for name in hs.COMPONENTS:
+        np.testing.assert_allclose(line[name], point[name], atol=1e-12, err_msg=name)
+
+
 def test_convolution_equals_the_direct_sum():
     rng = np.random.default_rng(2)
     x, y = np.arange(9) * 0.3, np.arange(5) * 0.2

@@ -36,6 +36,14 @@ def make(rises, dt=1e-6, speed=0.0, n=64, rows=1, length=1e-3):
     return x, y, ts.ThermalStress(STEEL, speed, rises(x[:, None], y[None, :]), dt, x, y, 0, n, 0.1e-3, True)
 
 
+def test_temperatures_fade_from_those_at_the_end_of_the_grid():
+    stress = make(lambda x, y: (1.0 + x / 1e-3 + 0 * y)[None])[2]  # from 1 K to 2 K
+    wide = stress._extended(stress.rises[0])[:, 0]
+    steps = np.diff(wide[wide > 0])
+    assert wide.max() == wide[63] and (steps[:63] > 0).all() and (steps[63:] < 0).all()
+    assert np.abs(steps).max() < 0.6 and wide[64] > 1.5
+
+
 def at(stress, entry):
     """sxx, syy, sxy (columns, rows) of an entry."""
     return np.moveaxis(stress.on(range(stress.waves.rows))(entry), -1, 0)
