@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from rolling import Rolling
 from small_stores import SMALL, shot
 
 import tehl_taichi as tehl
-from tehl_taichi.crack import body, growth
+from tehl_taichi.crack import analysis, body, growth
 from tehl_taichi.crack.analysis import follow, run
 from tehl_taichi.crack.crack_options import CrackOptions
 from tehl_taichi.crack.residual_stress import ResidualStress, read
@@ -324,6 +325,33 @@ def test_sides_of_the_other_body_are_those_of_the_feature_as_it_slides(taichi_cp
             ahead = begun.x + 5 / 3 * X - X
             assert sign * X > 0 and 0 < sign * ahead < 1.5 * plane.reach
     assert start(plane, "entry") or start(plane, "exit")
+    np.testing.assert_allclose(np.diff(plane.times[:-1]), np.diff(plane.centres[:-1]) / scene.operation.u_a, rtol=1e-9)
+
+
+@pytest.mark.parametrize("at, opens", [(-130, True), (-170, False)])
+def test_tension_farther_than_one_and_a_half_half_widths_is_not_of_the_feature(at, opens):
+    """The feature has a half width of 100 µm, and the tension 10 µm."""
+    found = start(plane(lambda x, z: 1e8 * (np.abs(x - at * MICRO) < 11 * MICRO) + 0 * z), "entry")
+    assert (found is not None) == opens and (not opens or abs(found.x - at * MICRO) < 11 * MICRO)
+
+
+def test_numbers_of_a_length_are_those_of_their_moment():
+    K = np.array([[1.0, 3.0, 2.0], [0.5, -0.25, 1.0]])
+    crack = SimpleNamespace(K=K, faces=SimpleNamespace(a=1e-5), pressure=np.array([1e6, 2e6, 0.0]), missed=1)
+    found = growth._step_numbers(SimpleNamespace(centres=np.array([-1.0, 0.0, 2.0])), crack)
+    assert (found["K_I_max"], found["K_II_there"], found["K_II_range"], found["feature_x_m"]) == (3.0, -0.25, 1.25, 0.0)
+    finer = K + np.array([[0.0, 0.0, 0.0], [0.0, -1.0, 0.0]])  # the largest slip back
+    assert analysis._element_error(K, K + 0.5) == {"K_I_max": 0.5, "K_II_range": 0.0}
+    assert analysis._element_error(K, finer) == {"K_I_max": 0.0, "K_II_range": 1.0}
+
+
+@pytest.mark.parametrize("depth, doubted", [(5, True), (7, False)])
+def test_a_crack_is_near_the_surface_after_its_first_piece_alone(depth, doubted):
+    """Its first piece of 5 µm always is, within twice the distance of 3 µm."""
+    points, last = np.array([0, 5j, 3 + depth * 1j]) * MICRO, SimpleNamespace(K=np.ones((2, 4)))
+    path = SimpleNamespace(points=points, steps=[{}], last=last)
+    said = list(analysis._doubts(path, CrackOptions(), 0, 0.0, 1.0))
+    assert len(said) == doubted and all("closer to the surface" in one for one in said)
 
 
 def test_oil_flows_with_the_oil_and_the_speed_of_the_scene(rolled):

@@ -1,12 +1,14 @@
 """Oil in a crack: its limits, what is kept when the mouth shuts, and a flow that is known in closed form."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from values.test_registry import hold
 
 from tehl_taichi.crack.compliance import CrackFaces
 from tehl_taichi.crack.filling import Fluid
-from tehl_taichi.crack.fillings import FILLINGS
+from tehl_taichi.crack.fillings import FILLINGS, along_crack
 from tehl_taichi.crack.fluid_filled import FluidFilledCrack
 
 SOLID = 1e60  # Pa s: does not flow
@@ -21,6 +23,16 @@ def wet(loads, mouth, fluid=STIFF, friction=0.0, dt=1.0, degrees=60):
     stress = 1e9 * np.stack([np.stack([a + b * depth, 0 * depth, c + 0 * depth], axis=-1) for a, b, c in loads], axis=1)
     times = dt * np.arange(len(loads))
     return FluidFilledCrack(faces, faces.forces(stress), 1e9 * np.array(mouth, float), 1.0, times, friction, fluid, 12)
+
+
+@pytest.mark.parametrize("cell", [0, 4, 11])
+def test_oil_resists_by_the_viscosity_of_its_own_cell(cell):
+    """Twice as viscous in one cell: twice as much of its two halves, which belong to the flows on both of its sides."""
+    filled = wet([(0.2, 0, 0)], [0.1], Fluid(lambda p: 1.0 + 0 * p, lambda p: 1.0 + p))
+    shut = np.zeros(filled.faces.opening().shape[1])
+    thin, thick = (along_crack._resistance(SimpleNamespace(wet=filled), shut, p) for p in (np.zeros(12), np.eye(12)[cell]))
+    changed = np.flatnonzero(np.abs(thick - thin) > 1e-9 * thin)
+    assert changed.tolist() == [n for n in (cell, cell + 1) if n < 12] and (thick <= 2 * thin * (1 + 1e-12)).all()
 
 
 @pytest.mark.parametrize("name", FILLINGS)

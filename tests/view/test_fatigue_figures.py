@@ -1,13 +1,14 @@
 """Figures of a fatigue search, which is made up: depths, digits, lines and what explains them."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from made_figures import legend, searched, title, titles
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.view.figures import fatigue_figures, palette
+from tehl_taichi.view.figures import distribution_figure, fatigue_figures, palette
 from tehl_taichi.view.figures.figure_style import FigureStyle
 
 matplotlib = pytest.importorskip("matplotlib")
@@ -81,6 +82,35 @@ def test_both_panels_of_the_depth_have_numbers_at_their_axis(width):
     label = (bar.xaxis if width > 12 else bar.yaxis).label  # away from the other panel's axis
     assert label.get_text() == "Fi at y = 0 µm" and not label.get_window_extent().overlaps(over.get_tightbbox())
     assert "Fi = 1" in legend(figure)
+
+
+def test_a_section_has_its_depths_from_the_surface_down():
+    """The hill lies at x = 20 µm; it is highest at 60 µm and lowest at 20 µm."""
+    found = searched(arrays=middle_row)
+    mesh = fatigue_figures.all_figures(FigureStyle(), found)["fatigue_depth"]().axes[0].collections[0]
+    places = mesh.get_coordinates()
+    Fi, depth = mesh.get_array().reshape(places.shape[:2]), places[:, 0, 1]
+    np.testing.assert_allclose(places[0, Fi.argmax(axis=1), 0], 20.0)
+    over = Fi.max(axis=1)
+    np.testing.assert_allclose(over, np.interp(depth, [0.0, 20.0, 60.0], [1.0, 0.5, 1.5]), rtol=1e-6)
+
+
+def test_the_trace_of_a_plane_lies_in_it():
+    """Normal to its normal, through the worst point."""
+    normal = np.array([0.36, 0.48, 0.8])
+    found = searched(arrays=lambda found: {"worst": {**found.worst, "normal": normal}})
+    lines = fatigue_figures.all_figures(FigureStyle(dpi=40), found)["fatigue"]().axes[0].lines
+    ends = next(line.get_xydata() for line in lines if len(line.get_xydata()) == 2)
+    assert (ends[1] - ends[0]) @ normal[:2] == pytest.approx(0.0, abs=1e-9) and ends.mean(axis=0) == pytest.approx([20.0, 0.0])
+
+
+def test_the_share_above_an_index_holds_up_to_the_next_one(monkeypatch):
+    values, share = np.array([0.5, 1.0, 2.0]), np.array([0.6, 0.2, 0.0])
+    monkeypatch.setattr(distribution_figure, "curves", lambda result: [("surface a", values, share)])
+    numbers = {"statistics": dict.fromkeys(distribution_figure.QUANTILES, 1.0)}
+    found = SimpleNamespace(result=SimpleNamespace(by_surface={}, numbers=numbers), constants="")
+    line = distribution_figure.distribution_figure(FigureStyle(), found).axes[0].lines[0]
+    assert np.interp([0.7, 1.5], *line.get_path().vertices.T) == pytest.approx([60.0, 20.0])
 
 
 def test_a_worst_point_at_the_rim_leaves_no_white_around_the_map():

@@ -8,7 +8,9 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures import fatigue_figures, palette
+from tehl_taichi.view.figures.field_maps import film_ends
 from tehl_taichi.view.figures.figure_style import INCH, FigureStyle
+from tehl_taichi.view.figures.line_figures import SURFACES
 from tehl_taichi.view.figures.moments import Moments
 
 matplotlib = pytest.importorskip("matplotlib")
@@ -160,6 +162,26 @@ def test_the_film_has_the_colours_of_its_own_range_inside_the_contact():
     inside = np.hypot(store.x[:, None] / s.a, store.y / s.b) < 0.9
     shown = [ax.collections[0] for ax in drawn("maps", store).axes if ax.get_title() == "film"][0]
     assert shown.get_clim() == pytest.approx((film.min(), film[inside].max())) and film[inside].max() < 0.8 * film.max()
+
+
+def test_the_film_inside_an_ellipse_reaches_as_far_as_its_half_axes():
+    """A film that grows from the middle along y alone."""
+    ball = scene("ball-on-disc")
+    wide = Made(ball.replace(**{"contact.kind": "elliptic", "contact.radius_y": 4 * ball.contact.radius_x}))
+    assert wide.b > 2 * wide.a
+    film = np.abs(wide.y) / wide.b + 0 * wide.x[:, None]
+    step = np.diff(wide.y[:2]) / wide.b
+    assert film_ends(Moments(wide), film) == (0.0, pytest.approx(0.9, abs=step.item()))
+
+
+def test_temperatures_of_a_surface_bear_its_name():
+    assert {text[-1]: name[-1] for name, text, _ in SURFACES[1:]} == {"a": "a", "b": "b"}
+    store = made("gear")
+    ax, lines = drawn("temperature", store, at=0.0).axes[0], {}
+    for name, _, style in SURFACES:
+        lines[style] = store.fields(Moments(store, 0.0).one(), [name])[name][:, Moments(store).line]
+    for line in ax.lines[-3:]:
+        np.testing.assert_allclose(line.get_ydata(), lines[line.get_linestyle()])
 
 
 def test_a_wide_ellipse_lies_on_its_side_with_its_middle_below():
