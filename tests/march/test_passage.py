@@ -54,6 +54,9 @@ def test_coarse_passage_conserves_and_leaves_the_steady_state_behind(law):
     assert effort[-1] < 80
     assert max(s.scalars["p_max_Pa"] for s in steps) > 1.5 * steps[0].scalars["p_max_Pa"]
     assert steps[-1].scalars["p_max_Pa"] == pytest.approx(steps[0].scalars["p_max_Pa"], rel=0.02)
+    S, description = Scales.of(scene()), scene()  # the feature moves with its surface from the steady start on
+    moved = [s.feature_x - description.path[0] * S.a for s in steps[1:]]
+    assert moved == pytest.approx([s.time * description.reference.speed for s in steps[1:]]) and steps[0].time == 0.0
 
 
 def test_film_under_the_asperity_stays_what_it_was_let_in_as():

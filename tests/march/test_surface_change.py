@@ -1,14 +1,18 @@
 """A passage sees what plastic flow changed of its surfaces."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue.assessment import Snapshots
+from tehl_taichi.march.feature_gap import sink, subtract
 from tehl_taichi.march.passage import march
 from tehl_taichi.plastic import elastic_loads
 from tehl_taichi.plastic.surface_change import SurfaceChange
+from tehl_taichi.scene.scales import Scales
 
 GEAR = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 2})
 
@@ -47,3 +51,28 @@ def test_between_its_places_it_is_smooth_along_and_across(mirrored):
     assert np.abs(change.at(fine, fine) - dent(fine, fine)).max() < 0.005
     assert np.array_equal(change.at(fine, fine), change.at(fine, fine[::-1])[::-1]) or not mirrored
     assert not change.at(np.array([-2e-4, 2e-4]), fine).any() and not change.at(fine, np.array([2e-4])).any()
+
+
+@pytest.mark.parametrize("X", [-0.9, 0.0, 0.6])
+def test_what_sank_moves_with_its_own_surface(X):
+    """A dent at x' = 0.1 a of each surface; b moves 5/3 as far as the first feature."""
+    a, x = 3e-4, np.linspace(-0.5, 0.5, 41)
+    dent = np.exp(-(((x - 0.1) / 0.1) ** 2))[:, None] * 1e-6
+    levels = SimpleNamespace(X=np.linspace(-3, 3, 241), Y=np.zeros(1), scales=SimpleNamespace(a=a, h=1e-6))
+    surfaces = [SimpleNamespace(name="a", pace=1.0), SimpleNamespace(name="b", pace=5 / 3)]
+    for surface in surfaces:
+        gap = np.zeros((1, 241))
+        sink(gap, levels, surfaces, [SurfaceChange(surface.name, x * a, np.zeros(1), dent, True)], X)
+        assert levels.X[gap[0].argmax()] == pytest.approx(0.1 + surface.pace * X, abs=0.0126) and gap.max() > 0.95
+
+
+@pytest.mark.parametrize("x, y, moved", [(0.0, 0.2, 0.0), (0.1, -0.3, 0.5), (-0.2, 0.0, -0.7)])
+def test_the_gap_is_narrow_where_the_feature_is(x, y, moved):
+    a = Scales.of(GEAR).a
+    feature, = GEAR.replace(**{"feature.x": x * a, "feature.y": y * a}).features
+    levels = SimpleNamespace(X=np.linspace(-2, 2, 161), Y=np.linspace(-1, 1, 81), scales=SimpleNamespace(a=a, h=1e-6))
+    gap = np.zeros((81, 161))
+    subtract(gap, levels, feature, moved)
+    row, column = np.unravel_index(gap.argmin(), gap.shape)
+    assert (levels.X[column], levels.Y[row]) == pytest.approx((x + moved, y), abs=0.0126)
+    assert gap.min() == pytest.approx(-feature.height / 1e-6, rel=0.01)

@@ -96,3 +96,24 @@ def test_lanes_beyond_the_last_row_count_nothing():
     levels.S.from_numpy(table)
     solver.equations.evaluate()
     assert (solver.measure(), solver.load_error, solver.mass_error) == told and np.isfinite(told).all()
+
+
+def test_walls_carry_the_stress_of_the_pressure_gradient_along_and_across():
+    """0.5 h dp/dx and 0.5 h dp/dy of a film H = 1, where P changes by 1 from node to node; cells are not square."""
+    from tehl_taichi.engine.language import ti
+    from tehl_taichi.engine.simd import Table
+    from tehl_taichi.pressure.fluxes import wall_x, wall_y
+    from tehl_taichi.pressure.levels import Levels
+
+    description = scene()
+    s = Scales.of(description)
+    levels, found = Levels(description, s, 64, 8), np.zeros(4)
+
+    @ti.kernel
+    def read(G: Table, out: ti.types.ndarray(dtype=ti.f64, ndim=1)):
+        along, across = wall_x(G, 0), wall_y(G, 0)
+        out[0], out[1], out[2], out[3] = along.stress, across.stress, along.distance, across.distance
+
+    read(levels.G, found)
+    assert found[2:] == pytest.approx([levels.dx, levels.dy]) and levels.dy > 1.2 * levels.dx
+    assert found[:2] == pytest.approx(0.5 * s.h * s.p_H / (s.a * found[2:]))
