@@ -118,3 +118,19 @@ def test_fast_surfaces_and_lines_lose_nothing_sideways():
     ball, line = (scene(name) for name in ("ball-on-disc", "smooth-line"))
     for one, speed, alone in ((ball, 50.0, True), (ball, 0.05, False), (line, 0.05, True)):
         assert (ConductingBody(one.body_a, speed, False, 1e-6, Scales.of(one)).spread == conduction_modes.NONE) == alone
+
+
+def test_a_settled_surface_at_rest_has_the_temperature_of_many_steps():
+    """Of the same flux in all of them."""
+    from tehl_taichi.heat.bodies import ConductingBody
+    from tehl_taichi.heat.strips import DECAY, GAIN, GAIN_LAST, WEIGHT
+    from tehl_taichi.scene.scales import Scales
+
+    line = scene("smooth-line")
+    body, modes = ConductingBody(line.body_a, 0.0, True, 1e-6, Scales.of(line)), 0.0
+    steady = body.begin(0.1, 0.0, 0.0, settled=True)
+    for _ in range(400):
+        B = body.begin(0.1, 0.0, 0.0, settled=False)
+        found = B + body.drift["B_last"] + (body.modes[WEIGHT] * body.modes[DECAY]) @ (modes + np.zeros(body.modes.shape[1]))
+        modes = body.modes[DECAY] * modes + body.modes[GAIN] + body.modes[GAIN_LAST]
+    assert found == pytest.approx(steady, rel=1e-6) and found > 1.5 * B

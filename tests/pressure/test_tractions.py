@@ -222,3 +222,22 @@ def test_swapping_the_surfaces_turns_the_shear_round(warm):
     one, other = warm[-0.02], warm_film(0.02, upside_down=True)
     film = ~one.touch
     np.testing.assert_allclose(other.stress[:2, film], one.stress[2:, film], rtol=1e-9, atol=1e-3)
+
+
+@pytest.mark.parametrize("mean, half", [(0.3, 0.9), (-2.0, 0.4), (2.0, -0.7), (0.1, 0.2)])
+def test_walls_at_their_limit_balance_the_pressure(taichi_cpu, mean, half):
+    """What both carry together is the difference of the pressure, as long as one wall could carry its half."""
+    from tehl_taichi.engine.language import ti
+    from tehl_taichi.engine.simd import V
+    from tehl_taichi.pressure.tractions import walls
+
+    found = np.zeros(4)
+
+    @ti.kernel
+    def put(out: ti.types.ndarray(dtype=ti.f64, ndim=1), mean: ti.f64, half: ti.f64):
+        a_x, a_y, b_x, b_y = walls(V(mean), V(half), V(0.0), V(0.0), V(1.0))
+        out[0], out[1], out[2], out[3] = a_x[0], a_y[0], b_x[0], b_y[0]
+
+    put(found, mean, half)
+    assert found[0] + found[2] == pytest.approx(-2 * half) and np.abs(found).max() <= 1 + 1e-12
+    assert not found[[1, 3]].any()
