@@ -185,6 +185,17 @@ def test_a_film_on_the_floor_is_not_known():
     assert bar([on, on, above]) == (None, "no coarser grid gives it")
 
 
+def test_an_extreme_under_a_feature_keeps_its_place_there():
+    """The feature has moved by three nodes."""
+    x, places = np.arange(40) * 1e-5, []
+    for n in (10, 13):
+        pressure = 1e9 * np.exp(-((np.arange(40)[:, None] - n) / 4.0) ** 2) * np.ones(3)
+        shot = SimpleNamespace(fields={"pressure": pressure}, x=x, feature_x=(n - 2) * 1e-5)
+        places.append(readings.pressure_reading(shot, 1e-4).place)
+    (here, under), (later, still) = places
+    assert later - here == pytest.approx(3e-5) and under == pytest.approx(still) == pytest.approx(2e-5)
+
+
 def test_extremes_between_nodes():
     x = np.linspace(-1, 1, 21)
     for at in (0.0, 0.03, 0.05):
