@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-THINNEST = 0.025  # a: an asperity of 1 a makes steel yield first at 0.1 a
-EVEN = 0.2        # a: as far down layers are equally thick (or as far as eight of them go)
+# Parts of the shortest length: steel under an asperity yields first at a tenth of its width
+THINNEST = 0.025
+EVEN = 0.2        # as far down layers are equally thick (or as far as eight of them go)
 GROWTH = 1.3      # of thicknesses below that
 REACH = 1.0       # a: no steel flows below it, where a smooth contact is worst
 DEEPEST, FASTER = 25.0, 1.5  # depth (a) of the fixed bottom, and growth of the elastic layers towards it
@@ -24,10 +25,10 @@ class Layers:
         return (np.cumsum(self.thickness) - self.thickness / 2)[: self.count]
 
 
-def layers(a, spacing):
-    """Layers for a contact of half-width a (m) on cells of `spacing` (m)."""
-    first = min(spacing, THINNEST * a)
-    found = [first] * max(8, round(EVEN * a / first))
+def layers(a, spacing, shortest):
+    """Layers for a contact of half-width a (m) on cells of `spacing` (m); shortest: of a and the widths of the features (m)."""
+    first = min(spacing, THINNEST * shortest)
+    found = [first] * max(8, round(EVEN * shortest / first))
     while sum(found) < REACH * a:
         found.append(found[-1] * GROWTH)
     count = len(found)

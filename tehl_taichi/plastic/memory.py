@@ -3,6 +3,7 @@
 from tehl_taichi.fatigue.stress.histories import AROUND, MARGIN
 from tehl_taichi.plastic.half_space import PAD, odd_length
 from tehl_taichi.plastic.layers import layers
+from tehl_taichi.scene.resolution import shortest_length
 from tehl_taichi.scene.run_in import yielding_surfaces
 from tehl_taichi.scene.scales import Scales
 
@@ -15,7 +16,7 @@ def needed_bytes(scene):
         return 0.0
     a, grid = Scales.of(scene).a, scene.grid
     dx, dy = (grid.x_max - grid.x_min) * a / grid.nx, grid.y_max * a / grid.ny
-    found = layers(a, dx)
+    found = layers(a, dx, shortest_length(scene))
     along = odd_length(int(PAD * _cells(scene, a, dx, "x", grid.nx)))
     across = odd_length(int(PAD * _cells(scene, a, dy, "y", 2 * grid.ny))) // 2 + 1 if scene.rows else 1
     return WAVE * along * across * (found.count + len(found.thickness))

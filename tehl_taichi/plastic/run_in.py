@@ -14,6 +14,7 @@ from tehl_taichi.plastic import elastic_loads, steel_body
 from tehl_taichi.plastic.layers import layers
 from tehl_taichi.plastic.steel_body import Cells, SteelState
 from tehl_taichi.plastic.surface_change import SurfaceChange
+from tehl_taichi.scene.resolution import shortest_length
 from tehl_taichi.scene.run_in import yielding_surfaces
 
 SAME = 0.02    # of the largest sinking: surfaces of two rounds of the first passage that are one
@@ -102,7 +103,7 @@ def state_after_passage(scene, reader, state):
 def _cells(passage):
     """(passage, its :class:`Cells`) of a surface."""
     law = HARDENINGS[passage.surface.body.hardening]
-    below = layers(passage.a, passage.dx)
+    below = layers(passage.a, passage.dx, shortest_length(passage.scene))
     limits = np.array([passage.strength.yield_stress(depth) for depth in below.depths])
 
     def flow_stress(layer, strain):

@@ -9,6 +9,7 @@ import numpy as np
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import domain, refinement
+from tehl_taichi.scene.resolution import shortest_length
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.surface.maps import map_warnings
 
@@ -70,9 +71,8 @@ def family_of(description):
 
 def columns_per_width(description):
     """Number of columns for one cell per contact half-width, or per feature width if features pass."""
-    g, a = description.grid, Scales.of(description).a
-    widths = [f.width for f in description.features if f.width] if description.transient else []
-    return (g.x_max - g.x_min) * a / min([a, *widths])
+    g = description.grid
+    return (g.x_max - g.x_min) * Scales.of(description).a / shortest_length(description)
 
 
 def _columns(errors, target):

@@ -65,6 +65,12 @@ def check(scene):
                          f"{_remedy(scene, FEWEST / times, worst)}")
 
 
+def shortest_length(scene):
+    """Contact half-width (m), or the width of a narrower feature that passes."""
+    widths = [f.width for f in scene.features if f.width] if scene.transient else []
+    return min([Scales.of(scene).a, *widths])
+
+
 def label(scene, n):
     """Name of feature n in messages."""
     return "feature" if len(scene.features) == 1 else f"feature.{n}"

@@ -23,9 +23,17 @@ def test_lengths_are_odd_and_quick():
 
 def test_layers_reach_where_a_smooth_contact_is_worst_and_a_bottom_far_below():
     for spacing in (2e-6, 2e-5):
-        found = layers(2e-4, spacing)
+        found = layers(2e-4, spacing, 2e-4)
         assert found.thickness[0] == min(spacing, 5e-6) and found.depths[-1] > 1.7e-4
         assert found.thickness.sum() > 5e-3 and np.all(np.diff(found.thickness) > -1e-20)
+
+
+def test_layers_under_a_narrow_feature_are_those_of_a_contact_as_narrow():
+    """As far down as its stress changes fast; below, they reach as deep as under the contact alone."""
+    narrow, alone, small = layers(2e-4, 1e-5, 5e-5), layers(2e-4, 1e-5, 2e-4), layers(5e-5, 1e-5, 5e-5)
+    near = int(np.searchsorted(small.depths, 0.2 * 5e-5))
+    assert near > 4 and np.array_equal(narrow.depths[:near], small.depths[:near])
+    assert narrow.depths[-1] > 0.8 * alone.depths[-1] and narrow.thickness.sum() > 0.9 * alone.thickness.sum()
 
 
 def test_a_layer_strained_along_the_surface_has_its_own_stress_alone():

@@ -58,7 +58,7 @@ def few_layers():
     """Six of them: most time goes into what each of them needs."""
     found = Layers(2.17e-4 * np.r_[np.full(6, 0.1), 0.1 * 1.7 ** np.arange(1, 10)], 6)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(run_in, "layers", lambda a, spacing: found)
+        patch.setattr(run_in, "layers", lambda *_: found)
         yield
 
 

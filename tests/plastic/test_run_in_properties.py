@@ -113,3 +113,16 @@ def test_the_height_before_is_that_of_the_feature_off_the_axis(y):
 def test_twice_the_rows_need_twice_the_memory():
     narrow, wide = (memory.needed_bytes(STEEL.replace(**{"grid.nx": 128, "grid.ny": rows})) for rows in (16, 32))
     assert wide == pytest.approx(2 * narrow, rel=0.25)
+
+
+@pytest.mark.slow
+def test_steel_that_has_shaken_down_under_a_narrow_asperity_holds_its_yield_stress(tmp_path):
+    """Elastic and perfectly plastic: between the layers the stress exceeds it by no more than 1 %."""
+    scene = tehl.scene("gear").replace(**{
+        "hertz_pressure": 1.45e9, "feature.height": 0.8e-6, "feature.width": 120e-6, "thermal.on": False, "grid.nx": 64,
+        "grid.ny": 16, "numerics.estimate_error": False, "time.run_in": 3, "bodies.a.yield_stress": 9e8,
+        "bodies.b.yield_stress": 9e8})
+    summary = tehl.run(scene, tmp_path / "narrow.zarr").summary
+    assert summary["run_in"]["shaken_down"] and summary["run_in"]["plastic_strain_max"] > 1e-4
+    for found in summary["fatigue_by_surface"].values():
+        assert found["von_mises"]["max_Pa"] < 1.01 * 9e8
