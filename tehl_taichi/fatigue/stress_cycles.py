@@ -14,16 +14,17 @@ LEAST = 0.05  # of the limit: smaller cycles are noise of the grid
 
 
 def rainflow(values):
-    """Cycles of a periodic history, (n, 4): indices of both ends and of the first and last value during the cycle, counted from
-    the largest value (see :func:`from_largest`).
+    """Cycles of a periodic history (n,) from :func:`from_largest`, (n, 3): indices of both ends, and of the value that closes
+    the cycle, the first one that is back at its beginning.
     """
     stack, out = [], []
     for n in _turns(values):
         stack.append(n)
-        while len(stack) > 2 and abs(values[stack[-1]] - values[stack[-2]]) >= abs(values[stack[-2]] - values[stack[-3]]):
-            out.append((stack[-3], stack[-2], stack[-3], n))
+        while len(stack) > 2 and abs(values[n] - values[stack[-2]]) >= (size := abs(values[stack[-2]] - values[stack[-3]])):
+            one, other = stack[-3:-1]
+            out.append((one, other, other + int(np.argmax(np.abs(values[other : n + 1] - values[other]) >= size))))
             del stack[-3:-1]
-    return np.array(out, int).reshape(-1, 4)
+    return np.array(out, int).reshape(-1, 3)
 
 
 def from_largest(values, *others):
@@ -51,9 +52,9 @@ def above(history, normal, local):
     mean = history[:, :3].mean(axis=1)
     shear, normal_stress, mean = from_largest(_along_the_largest(dip, strike), normal_stress, mean)
     rule, count = CRITERIA[local.criterion], 0
-    for one, other, first, last in rainflow(shear):
+    for one, other, closes in rainflow(shear):
         amplitude = 0.5 * abs(shear[one] - shear[other])
-        time = slice(first, last + 1)
+        time = slice(one, closes + 1)
         stress = rule.value(amplitude, normal_stress[time].max(), mean[time].max(), local.kappa)
         count += amplitude >= LEAST * local.endurance and stress > local.endurance
     return int(count)

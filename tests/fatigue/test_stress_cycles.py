@@ -15,7 +15,7 @@ FATIGUE = SimpleNamespace(criterion="findley", kappa=0.3, endurance=100e6)
 
 def ranges(values):
     found, = from_largest(np.asarray(values, float))
-    return sorted(float(abs(found[a] - found[b])) for a, b, *_ in rainflow(found))
+    return sorted(float(abs(found[a] - found[b])) for a, b, _ in rainflow(found))
 
 
 def test_the_example_of_the_standard():
@@ -62,6 +62,17 @@ def test_tension_counts_while_a_cycle_lasts():
     found = [stress_cycles.above(history(90e6 * np.sin(x) * (1 + 1e-3 * x), one), np.array([0.0, 0.0, 1.0]), FATIGUE)
              for one in (during, 0 * x - 50e6, 0 * x + 50e6)]
     assert found[1] == 0 and found[2] == 4 and 1 <= found[0] <= 3
+
+
+@pytest.mark.parametrize("moment, count", [(1.5, 1), (2.5, 2), (3.5, 2), (3.85, 2), (3.97, 1)],
+                         ids=["before it begins", "on its way", "on its way back", "as it closes", "after it is closed"])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_cycle_lasts_until_the_shear_is_back_at_its_beginning(moment, count, sign):
+    """From 90 to -90 MPa and back, beside the cycle of -110 to 110 MPa, which always counts; 50 MPa of tension for a moment."""
+    x = np.linspace(0, 4, 1601)
+    shear = sign * np.interp(x, np.arange(5), [110e6, -110e6, 90e6, -90e6, 110e6])  # it is back at 90 MPa at x = 3.9
+    tension = np.where(abs(x - moment) < 0.02, 50e6, 0.0)
+    assert stress_cycles.above(history(shear, tension), np.array([0.0, 0.0, 1.0]), FATIGUE) == count
 
 
 @pytest.mark.parametrize("size, counts", [(50e6, {1, 2, 3, 4}), (20e6, {0})])
