@@ -70,7 +70,9 @@ def test_with_temperatures_and_a_shear_limit(taichi_cpu):
     def warm(z, X, Y):
         return 40 + 30 * z + 20 * z * (1 - z) * (1 + 0.2 * np.cos(X) * np.cos(np.pi * Y))
 
-    assert mismatch(thick("gear", **{"thermal.on": True, "srr": -1.9, "temperature": 40.0}), warm) < 1e-4
+    # so weak that walls yield: the ratio of both fluidities counts
+    weak = {"rheology.tau_L0": 1e5, "rheology.gamma": 5e-4, "speed": 3.0, "srr": -1.9}
+    assert mismatch(thick("gear", **{"thermal.on": True, "temperature": 40.0, **weak}), warm, 1e-8) < 2e-5
 
 
 @pytest.mark.parametrize("srr", [0.0, -0.1])
