@@ -98,6 +98,27 @@ def test_lanes_beyond_the_last_row_count_nothing():
     assert (solver.measure(), solver.load_error, solver.mass_error) == told and np.isfinite(told).all()
 
 
+def test_the_mass_error_of_a_line_does_not_depend_on_its_rows():
+    """Outflow and flux have equal weights of the rows, in one row, a half and a whole domain."""
+    from tehl_taichi.pressure import fields
+    from tehl_taichi.pressure.isothermal import OneTemperature
+    from tehl_taichi.pressure.levels import Levels
+    from tehl_taichi.pressure.newton import PressureSolver
+
+    line, found = scene("smooth-line"), []
+    for ny, full in ((0, False), (8, False), (8, True)):
+        levels = Levels(line, Scales.of(line), 64, ny, full)
+        levels.put(fields.GAP0, levels.smooth_gap() + 0.3)
+        levels.put(fields.P, 0.1 * np.maximum(1 - levels.X**2, 0) * np.ones((ny + 1, 1)))
+        solver = PressureSolver(levels, OneTemperature(levels))
+        solver.residual()
+        solver.equations.linearise()
+        solver.measure()
+        found.append(solver.mass_error)
+        del levels, solver  # the next ones take their tables, with their kernels
+    assert found == pytest.approx([found[0]] * 3, rel=1e-9) and found[0] > 1e-3
+
+
 def test_walls_carry_the_stress_of_the_pressure_gradient_along_and_across():
     """0.5 h dp/dx and 0.5 h dp/dy of a film H = 1, where P changes by 1 from node to node; cells are not square."""
     from tehl_taichi.engine.language import ti
