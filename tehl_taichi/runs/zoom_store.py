@@ -32,11 +32,8 @@ def _check(before, factor):
     """Refuse a run that cannot have a window of this factor. Raises SceneError, StoreError."""
     if not before.finished:
         raise StoreError(f"{before.path} is not finished: use tehl resume {before.path} first")
-    if factor and not before.scene.transient:
-        raise SceneError(f"{before.path}: no feature passes in this run, so there is nothing to zoom in on")
-    if factor and len(before.store) < zoom_room.FEWEST:
-        raise SceneError(f"{before.path} has {len(before.store)} stored moments, a window needs at least {zoom_room.FEWEST}: "
-                         "extend the run with tehl resume, or repeat it with a smaller output.every")
+    if factor and (why := zoom_room.why_none(before.scene)):
+        raise SceneError(f"{before.path} cannot have a window: {why}")
 
 
 def _zoom_as_needed(path, threads, progress):

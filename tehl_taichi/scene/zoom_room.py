@@ -33,7 +33,8 @@ def why_none(scene):
     if not scene.transient:
         return "nothing passes"
     found = timeline.entries(scene)
-    return "" if found >= FEWEST else f"a window needs {FEWEST} stored moments, this run has {found}"
+    return "" if found >= FEWEST else (f"a window needs at least {FEWEST} stored moments, this run has {found}; extend it "
+                                       "(time.steps, `tehl resume`) or use a smaller output.every")
 
 
 def followed(scene):
