@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
+from tehl_taichi.report import place_sections, place_verdict, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
 from tehl_taichi.report.number_text import sentence_case, unit_spelled
 from tehl_taichi.report.plots import colour, line, rings, stack
+from tehl_taichi.runs import place_warnings
 from tehl_taichi.runs.cam import cam_columns, cam_figure
 from tehl_taichi.runs.cam.stored_cam import Cam
 from tehl_taichi.runs.flank.flank_figure import JUDGED

@@ -1,10 +1,11 @@
 """Page of a flank, from its folder: the position where a crack would start."""
 
 from tehl_taichi.fatigue.pressure_alone import why_none
-from tehl_taichi.report import place_sections, place_verdict, place_warnings, position_pages
+from tehl_taichi.report import place_sections, place_verdict, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
 from tehl_taichi.report.number_text import sentence_case, unit_spelled
 from tehl_taichi.report.plots import colour, line, rings, stack
+from tehl_taichi.runs import place_warnings
 from tehl_taichi.runs.flank import specific_film
 from tehl_taichi.runs.flank.flank_columns import plotted_value, tables, value_at
 from tehl_taichi.runs.flank.flank_figure import JUDGED, PANELS

@@ -40,6 +40,19 @@ class Kinds:
         return *kind, same.index(warning)
 
 
+def by_kind(summaries, spelled=str, leave=()):
+    """[{sentence: its places}] of the kinds of warnings of several runs. summaries: (place, summary or None); spelled(warning):
+    its sentence; leave: warnings that are left out.
+    """
+    kinds: dict[tuple, dict[str, list]] = {}
+    for place, summary in summaries:
+        own = Kinds()
+        for one in unique(warnings_of(summary or {})):
+            if one not in leave:
+                kinds.setdefault(own.of(one), {}).setdefault(spelled(one), []).append(place)
+    return list(kinds.values())
+
+
 def lists(warnings):
     """{name: list} of the sentences, codes and data of warnings, for summaries and stores."""
     whole = [one if isinstance(one, CodedWarning) else CodedWarning(one) for one in warnings]

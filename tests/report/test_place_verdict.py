@@ -3,7 +3,8 @@
 import made_results
 import pytest
 
-from tehl_taichi.report import place_verdict, place_warnings
+from tehl_taichi.report import place_verdict
+from tehl_taichi.runs import place_warnings
 from tehl_taichi.values.coded_warning import CodedWarning, lists
 
 

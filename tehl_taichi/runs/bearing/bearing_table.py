@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Callable
 
+from tehl_taichi.runs import place_warnings
 from tehl_taichi.runs.bearing.ring_contacts import RINGS
 from tehl_taichi.runs.flank.flank_columns import PASSAGE, error_of, title_of, value_at
 from tehl_taichi.values.digits import with_error
@@ -173,13 +174,9 @@ def estimated_words(bearing):
 
 
 def warnings(bearing):
-    """Warnings of the bearing and of both runs, each once; a warning of one ring only begins with its name."""
-    places: dict[str, list[str]] = {}
-    for name, ring in bearing.rings.items():
-        for sentence in (ring["summary"] or {}).get("warnings", []):
-            places.setdefault(sentence, []).append(name)
-    of_runs = [sentence if len(names) == len(RINGS) else f"{names[0]} ring: {sentence}" for sentence, names in places.items()]
-    return [*bearing.record.get("warnings", []), *of_runs]
+    """Warnings of the bearing and of both runs, each kind once with its rings."""
+    rings = [(name, None, ring["summary"]) for name, ring in bearing.rings.items()]
+    return [*bearing.record.get("warnings", []), *place_warnings.of(rings, "{} ring".format)]
 
 
 def csv_text(bearing):

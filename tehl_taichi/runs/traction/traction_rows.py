@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tehl_taichi.runs.flank.flank_columns import error_of, value_at
-from tehl_taichi.values.coded_warning import Kinds, unique, warnings_of
+from tehl_taichi.values.coded_warning import by_kind
 from tehl_taichi.values.digits import printed_unit
 
 if TYPE_CHECKING:
@@ -95,16 +95,15 @@ class Traction:
 
     @property
     def warnings(self) -> list:
-        """Keys without effect, and the warnings of the cases: the first of every kind, with the number of its cases."""
-        kinds: dict[tuple, list[str]] = {}
-        doubts = [str(one) for one in self.study.plan.doubts()]
-        for record in self.study.results():
-            own = Kinds()
-            for one in unique(one for one in warnings_of(record["summary"] or {}) if str(one) not in doubts):
-                kinds.setdefault(own.of(one), []).append(str(one))
-        of_cases = [f"{found[0]} ({'the first of ' * (len(set(found)) > 1)}{len(found)} of {len(self.study)} cases)"
-                    for found in kinds.values()]
-        return [*doubts, *of_cases]
+        """Keys without effect, and the :attr:`warnings_of_cases`."""
+        return [*self.study.plan.doubts(), *self.warnings_of_cases]
+
+    @property
+    def warnings_of_cases(self) -> list:
+        """Further warnings of the cases: the first of every kind, with the number of its cases."""
+        results = ((record["case"], record["summary"]) for record in self.study.results())
+        return [f"{[*one][0]} ({'the first of ' * (len(one) > 1)}{sum(map(len, one.values()))} of {len(self.study)} cases)"
+                for one in by_kind(results, leave=self.study.plan.doubts())]
 
     def to_dict(self) -> dict:
         """The JSON object of `tehl traction --json`."""

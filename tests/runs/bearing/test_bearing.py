@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import shutil
+from types import SimpleNamespace
 
 import made_results
 import numpy as np
@@ -25,6 +26,7 @@ from tehl_taichi.runs.open_results import kind
 from tehl_taichi.runs.sweep import case
 from tehl_taichi.scene import resolution, scene
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.coded_warning import CodedWarning, lists
 from tehl_taichi.view.figures.figure_style import FigureStyle
 
 NAMES = {"R_x_m", "R_y_m", "a_m", "b_m", "p_Hertz_Pa", "u_m_m_s", "summary"}
@@ -332,6 +334,14 @@ def test_keys_of_a_passage_are_checked_where_nothing_passes(tmp_path, changes, s
         with pytest.raises(SceneError, match=said):
             tehl.bearing("6206", changes=changes, steady=steady, run=False, folder=tmp_path / "b")
     assert not (tmp_path / "b").exists()
+
+
+def test_warnings_of_both_rings_are_one_sentence_whatever_their_numbers():
+    """As at the positions of a flank; a warning that the bearing itself has comes first."""
+    rings = {name: {"summary": lists([CodedWarning(f"{n} cells", "cells"), CodedWarning("oil", "oil")])}
+             for n, name in ((15, "inner"), (14, "outer"))}
+    assert bearing_table.warnings(SimpleNamespace(rings=rings, record={"warnings": ["idle"]})) == [
+        "idle", "inner ring: 15 cells (likewise, with other numbers, at outer ring)", "inner ring, outer ring: oil"]
 
 
 def test_keys_of_a_passage_have_no_effect_where_nothing_passes(tmp_path):

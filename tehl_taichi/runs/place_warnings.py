@@ -1,6 +1,6 @@
 """Warnings of a sequence of contacts, each kind once with its places."""
 
-from tehl_taichi.values.coded_warning import Kinds, warnings_of
+from tehl_taichi.values.coded_warning import by_kind
 
 MANY = 3  # places that are named one by one
 
@@ -11,13 +11,8 @@ def of(rows, words, spelled=str):
 
     Warnings of one kind with different numbers become one sentence: that of the first place, followed by the other places.
     """
-    kinds: dict[tuple, dict[str, list[str]]] = {}
     count = sum(1 for *_, summary in rows if summary)
-    for at, _, summary in rows:
-        own = Kinds()
-        for one in warnings_of(summary or {}):
-            kinds.setdefault(own.of(one), {}).setdefault(spelled(one), []).append(words(at))
-    return [_sentence(found, count) for found in kinds.values()]
+    return [_sentence(found, count) for found in by_kind(((words(at), summary) for at, _, summary in rows), spelled)]
 
 
 def _sentence(found, count):
