@@ -50,7 +50,7 @@ def traction(
     from tehl_cli.sweep_display import SweepLive, doubts
 
     from tehl_taichi.errors import Interrupted, NotConverged, stopped
-    from tehl_taichi.runs.traction.traction_run import traction, traction_plan
+    from tehl_taichi.runs.traction.traction_run import computed, traction_plan
     from tehl_taichi.store.load_scene import find
     from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
 
@@ -60,12 +60,12 @@ def traction(
     changes = changes_of(options, grid, set_ or [])
     base = find(scene)
     check_rows(grid, changes, lambda: base)
-    axes = dict(srr=srr, temperature=temperature, speed=speed, load=load, hertz_pressure=hertz_pressure, changes=changes)
-    for sentence in doubts(traction_plan(base, **axes)):
+    plan = traction_plan(base, srr, temperature, speed, changes, load, hertz_pressure)
+    for sentence in doubts(plan):
         say(sentence)
     with SweepLive(quiet) as live:
         try:
-            found = traction(base, **axes, path=out, workers=workers, threads_per_worker=threads_per_worker, progress=live)
+            found = computed(plan, out, workers=workers, threads_per_worker=threads_per_worker, progress=live)
         except KeyboardInterrupt as stop:
             raise Interrupted(f"{stopped(stop)} {live.left('repeat the command to resume')}") from None
     if figure:
@@ -88,7 +88,7 @@ def _print(found):
                 for row in rows], whole=True)
     for row in found.failed:
         put(f"no result: {', '.join(f'{head} {row[key]:g}' for key, head in KEYS.items() if key in row)}: {row['reason']}")
-    warning_lines(found.warnings[len(found.study.plan.doubts()):])  # those were printed before the runs
+    warning_lines(found.warnings_of_cases)  # others were printed before the runs
     put(f"table: {found.study.table}; study: {found.study.path}")
 
 

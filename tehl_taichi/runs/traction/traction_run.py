@@ -25,10 +25,13 @@ def traction(scene: Scene | str | PathLike, srr: Any = SRRS, temperature: Any = 
              workers: int | None = None, threads_per_worker: int | None = None, progress: Callable | None = None,
              work: Any = None) -> Traction:
     """Compute traction curves: see :func:`tehl_taichi.traction`; work: as for :func:`tehl_taichi.runs.sweep.sweeping.run`."""
-    found = traction_plan(find(scene), srr, temperature, speed, changes or {}, load, hertz_pressure)
-    place = path if path is not None else default_path(found)
-    return Traction(sweeping.run(found, place, workers=workers, threads_per_worker=threads_per_worker, keep="summary",
-                                 progress=progress, work=work))
+    return computed(traction_plan(find(scene), srr, temperature, speed, changes, load, hertz_pressure), path, workers=workers,
+                    threads_per_worker=threads_per_worker, progress=progress, work=work)
+
+
+def computed(found, path=None, **options):
+    """The Traction of a :func:`traction_plan`; path, options: as for :func:`traction`."""
+    return Traction(sweeping.run(found, default_path(found) if path is None else path, keep="summary", **options))
 
 
 def traction_plan(scene, srr=SRRS, temperature=None, speed=None, changes=None, load=None, hertz_pressure=None):
