@@ -8,6 +8,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
+from tehl_taichi.profiles.stability_scenes import log_uniform
 
 from tehl_taichi.disk import user_files
 from tehl_taichi.errors import Error
@@ -76,10 +77,6 @@ def _admissible(rng, kind, columns):
     raise SceneError(f"none of {DRAWS} scenes drawn as {kind!r} is admissible")
 
 
-def _log_uniform(rng, low, high):
-    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
-
-
 def _steady(rng, kind, nx):
     """Steady start on the domain that the scene chooses, or on the usual domain as if the user had set it."""
     line, grid = kind.startswith(("line", "flank")), {"grid.nx": nx}
@@ -87,12 +84,12 @@ def _steady(rng, kind, nx):
         grid |= {"grid.ny": nx // 2, "grid.y_max": "auto", "grid.x_min": "auto"}
     if rng.random() < FIXED:
         grid |= {"grid.x_min": -2.5} | ({} if line else {"grid.y_max": 1.5})
-    ratio = 1.0 if line or "circle" in kind else _log_uniform(rng, 0.3, 4)
+    ratio = 1.0 if line or "circle" in kind else log_uniform(rng, 0.3, 4)
     return _moes(rng, line, ratio, grid) if "Moes" in kind else _by_pressure(rng, kind, line, ratio, grid)
 
 
 def _moes(rng, line, ratio, grid):
-    M, round_ = _log_uniform(rng, 2 if line else 5, 1000), {} if line else _radii(ratio)
+    M, round_ = log_uniform(rng, 2 if line else 5, 1000), {} if line else _radii(ratio)
     return scene("smooth-line" if line else "ball-on-disc").replace(**{
         "contact.load": 0.0, "contact.moes_M": M, "contact.moes_L": float(rng.uniform(2, 25)), "oil.name": "moes-test-fluid",
         **round_, **grid})
@@ -104,10 +101,10 @@ def _radii(ratio):
 
 def _by_pressure(rng, kind, line, ratio, grid):
     flank, most = kind.startswith("flank"), 2.5e9 if line else 2e9
-    pressure = _log_uniform(rng, 0.3e9, 0.8e9) if flank else _log_uniform(rng, 0.5e9, most)
+    pressure = log_uniform(rng, 0.3e9, 0.8e9) if flank else log_uniform(rng, 0.5e9, most)
     changes = {"temperature": float(rng.uniform(50, 120)), "srr": float(rng.uniform(-0.6, 0.6)),
                "thermal.on": "thermal" in kind,
-               "speed": _log_uniform(rng, 10, 30) if flank else _log_uniform(rng, 1, 20 if line else 10)}
+               "speed": log_uniform(rng, 10, 30) if flank else log_uniform(rng, 1, 20 if line else 10)}
     base = scene("smooth-line").to_dict()
     radii = {"radius_x": 10.6e-3} if line else {"radius_x": 12.7e-3, "radius_y": 12.7e-3 * ratio,
                                                 "kind": "point" if ratio == 1 else "elliptic"}
@@ -118,27 +115,27 @@ def _by_pressure(rng, kind, line, ratio, grid):
 def _passage(rng, kind):
     sign = 1.0 if rng.random() < 0.6 else -1.0
     if kind == "ridge on ball":
-        return scene("ridge-on-ball").replace(**{"height": sign * _log_uniform(rng, 0.1e-6, 0.3e-6),
+        return scene("ridge-on-ball").replace(**{"height": sign * log_uniform(rng, 0.1e-6, 0.3e-6),
                                                  "srr": float(rng.choice([-0.5, 0.0, 0.5])), "grid.nx": 64, "grid.ny": 32})
     ridge, thermal, thick = kind.startswith("ridge"), "thermal" in kind, "thick" in kind
-    fast = {"hertz_pressure": _log_uniform(rng, 0.5e9, 0.9e9), "speed": _log_uniform(rng, 10, 25)} if thick else {}
+    fast = {"hertz_pressure": log_uniform(rng, 0.5e9, 0.9e9), "speed": log_uniform(rng, 10, 25)} if thick else {}
     nx = int(rng.choice([128, 256])) if ridge else 64 if thermal else 128
     return scene("gear").replace(**{
-        "feature.shape": "ridge" if ridge else "cosine", "height": sign * _log_uniform(rng, 0.3e-6, 1.5e-6),
-        "width": _log_uniform(rng, 200e-6, 400e-6), "srr": float(rng.uniform(-0.5, 0.5)), "thermal.on": thermal,
-        "hertz_pressure": _log_uniform(rng, 1e9, 2.2e9), "temperature": float(rng.uniform(60, 100)), "grid.nx": nx,
+        "feature.shape": "ridge" if ridge else "cosine", "height": sign * log_uniform(rng, 0.3e-6, 1.5e-6),
+        "width": log_uniform(rng, 200e-6, 400e-6), "srr": float(rng.uniform(-0.5, 0.5)), "thermal.on": thermal,
+        "hertz_pressure": log_uniform(rng, 1e9, 2.2e9), "temperature": float(rng.uniform(60, 100)), "grid.nx": nx,
         "grid.ny": nx // 4, "time.x_end": float("inf") if ridge else 0.0, **fast})
 
 
 def _rough(rng, kind, nx):
     """Ground surfaces of Ra 0.1 to 0.5 um across, in one dimension; both signs of slip."""
     smooth = scene("gear").replace(**{
-        "srr": float(rng.choice([-1.0, 1.0])) * _log_uniform(rng, 0.03, 0.3), "hertz_pressure": _log_uniform(rng, 1e9, 2.2e9),
-        "temperature": float(rng.uniform(60, 100)), "speed": _log_uniform(rng, 3.0, 15.0), "thermal.on": "thermal" in kind,
+        "srr": float(rng.choice([-1.0, 1.0])) * log_uniform(rng, 0.03, 0.3), "hertz_pressure": log_uniform(rng, 1e9, 2.2e9),
+        "temperature": float(rng.uniform(60, 100)), "speed": log_uniform(rng, 3.0, 15.0), "thermal.on": "thermal" in kind,
         "grid.nx": nx, "grid.ny": nx // 4})
     s = Scales.of(smooth)
-    shortest, surfaces = _log_uniform(rng, 1.05, 2.0) * FEWEST * s.cell(smooth.grid)[0], "ab" if "pair" in kind else "a"
-    ground = {"shape": "ground", "height": _log_uniform(rng, 0.1e-6, 0.5e-6), "width": shortest, "length": math.inf,
+    shortest, surfaces = log_uniform(rng, 1.05, 2.0) * FEWEST * s.cell(smooth.grid)[0], "ab" if "pair" in kind else "a"
+    ground = {"shape": "ground", "height": log_uniform(rng, 0.1e-6, 0.5e-6), "width": shortest, "length": math.inf,
               "extent_x": 1.5 * s.a, "taper": 0.15 * s.a}
     return replace(smooth, features=tuple(Feature(surface=name, seed=int(rng.integers(1000)), **ground) for name in surfaces))
 
@@ -146,9 +143,9 @@ def _rough(rng, kind, nx):
 def _exit(rng, kind, nx):
     """An asperity or a dent that nothing ends across, until it has left."""
     return scene("gear").replace(**{
-        "feature.length": float("inf"), "height": float(rng.choice([-1.0, 1.0])) * _log_uniform(rng, 0.5e-6, 1.5e-6),
-        "width": _log_uniform(rng, 150e-6, 300e-6), "srr": float(rng.choice([0.0, rng.uniform(-0.4, 0.4)], p=[0.2, 0.8])),
-        "thermal.on": "thermal" in kind, "hertz_pressure": _log_uniform(rng, 1e9, 2.2e9),
+        "feature.length": float("inf"), "height": float(rng.choice([-1.0, 1.0])) * log_uniform(rng, 0.5e-6, 1.5e-6),
+        "width": log_uniform(rng, 150e-6, 300e-6), "srr": float(rng.choice([0.0, rng.uniform(-0.4, 0.4)], p=[0.2, 0.8])),
+        "thermal.on": "thermal" in kind, "hertz_pressure": log_uniform(rng, 1e9, 2.2e9),
         "temperature": float(rng.uniform(60, 100)), "grid.nx": nx, "grid.ny": nx // 4})
 
 

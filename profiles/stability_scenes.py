@@ -83,20 +83,20 @@ def random_cases(count, seed=0):
 
 
 def _drawn(rng):
-    log_uniform = functools.partial(_log_uniform, rng)
+    between = functools.partial(log_uniform, rng)
     point = rng.random() < 0.3
-    contact = {"hertz_pressure": log_uniform(0.3e9, 2e9 if point else 4e9)}
+    contact = {"hertz_pressure": between(0.3e9, 2e9 if point else 4e9)}
     if point:
-        contact |= {"kind": "elliptic", "radius_x": 12.7e-3, "radius_y": 12.7e-3 * log_uniform(1 / 8, 8)}
+        contact |= {"kind": "elliptic", "radius_x": 12.7e-3, "radius_y": 12.7e-3 * between(1 / 8, 8)}
     law = str(rng.choice(SHEAR_LAWS))
     size = RANDOM_POINT if point else RANDOM_LINE
     smooth = edited("smooth-line", {**size, "srr": float(rng.uniform(-1.9, 2.0)), "temperature": float(rng.uniform(20, 150)),
-                                    "speed": log_uniform(0.01, 50.0), "thermal.on": bool(rng.random() < 0.5),
+                                    "speed": between(0.01, 50.0), "thermal.on": bool(rng.random() < 0.5),
                                     "rheology.law": law, "time.steps": RANDOM_STEPS, "contact": contact,
-                                    "bodies.b.E": 206e9 / log_uniform(1, 10)})
+                                    "bodies.b.E": 206e9 / between(1, 10)})
     cell = max(Scales.of(smooth).cell(smooth.grid))
-    feature = Feature(height=float(rng.choice([-1.0, 1.0])) * log_uniform(0.1e-6, 3e-6),
-                      width=log_uniform(max(20e-6, 1.01 * FEWEST * cell), max(400e-6, 2 * FEWEST * cell)),
+    feature = Feature(height=float(rng.choice([-1.0, 1.0])) * between(0.1e-6, 3e-6),
+                      width=between(max(20e-6, 1.01 * FEWEST * cell), max(400e-6, 2 * FEWEST * cell)),
                       shape=str(rng.choice([name for name, shape in SHAPES.items() if shape.drawn])))
     return dataclasses.replace(smooth, features=(feature,))
 
@@ -107,9 +107,9 @@ def rough_cases(count, seed=0):
     rng, out = np.random.default_rng(seed), {}
     for n in range(count):
         smooth = scene("gear").replace(**ROUGH_LINE, **{"temperature": float(rng.uniform(40, 120)),
-                                                        "hertz_pressure": _log_uniform(rng, 0.8e9, 2.5e9),
-                                                        "srr": float(rng.choice([-1, 1])) * _log_uniform(rng, 0.02, 0.5),
-                                                        "speed": _log_uniform(rng, 2.0, 20.0)})
+                                                        "hertz_pressure": log_uniform(rng, 0.8e9, 2.5e9),
+                                                        "srr": float(rng.choice([-1, 1])) * log_uniform(rng, 0.02, 0.5),
+                                                        "speed": log_uniform(rng, 2.0, 20.0)})
         pair = [_ground(rng, smooth, name) for name in "ab"]
         try:
             out[f"rough {seed}-{n} {', '.join(marks for marks, _ in pair)}"] = dataclasses.replace(
@@ -122,14 +122,14 @@ def rough_cases(count, seed=0):
 def _ground(rng, smooth, surface):
     """(lay, ground Feature) of one surface, whose shortest wave the grid of the scene sees."""
     s = Scales.of(smooth)
-    shortest, lay = _log_uniform(rng, 1.01, 3.0) * FEWEST * max(s.cell(smooth.grid)), str(rng.choice(["across", "along"]))
-    along = shortest * _log_uniform(rng, 3.0, 20.0)
+    shortest, lay = log_uniform(rng, 1.01, 3.0) * FEWEST * max(s.cell(smooth.grid)), str(rng.choice(["across", "along"]))
+    along = shortest * log_uniform(rng, 3.0, 20.0)
     width, length = (shortest, along) if lay == "across" else (along, shortest)
-    return lay, Feature(shape="ground", surface=surface, height=_log_uniform(rng, 0.1e-6, 0.5e-6), width=width, length=length,
+    return lay, Feature(shape="ground", surface=surface, height=log_uniform(rng, 0.1e-6, 0.5e-6), width=width, length=length,
                         seed=int(rng.integers(1000)), extent_x=s.a, taper=0.15 * s.a)
 
 
-def _log_uniform(rng, low, high):
+def log_uniform(rng, low, high):
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
