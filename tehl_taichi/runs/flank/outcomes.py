@@ -119,11 +119,25 @@ class _LocalWork:
         return case.run_case(job, _NamedProgress(self.progress, job.scene.name))
 
 
-class _KindsOnce(Progress):
+class _Forwarded(Progress):
+    """Progress that passes on stages and steps to a listener."""
+
+    def __init__(self, listener):
+        self.listener = listener
+
+    def step(self, snapshot):
+        self.listener.step(snapshot)
+
+    def stage(self, name, done, total):
+        self.listener.stage(name, done, total)
+
+
+class _KindsOnce(_Forwarded):
     """Progress of a flank: passes on the warnings of each kind once, those of the first position that has the kind."""
 
     def __init__(self, listener):
-        self.listener, self.warned, self.kinds = listener, set(), {}
+        super().__init__(listener)
+        self.warned, self.kinds = set(), {}
 
     def say(self, text):
         self.listener.say(text)
@@ -138,24 +152,13 @@ class _KindsOnce(Progress):
             self.warned.add(kind)
             self.listener.warn(f"{name}: {sentence}")
 
-    def step(self, snapshot):
-        self.listener.step(snapshot)
 
-    def stage(self, name, done, total):
-        self.listener.stage(name, done, total)
-
-
-class _NamedProgress(Progress):
-    """Progress of one of many runs: passes on stages and steps, and warnings with the run's name."""
+class _NamedProgress(_Forwarded):
+    """Progress of one of many runs: passes on its warnings with its name."""
 
     def __init__(self, listener, name):
-        self.listener, self.name = listener, name
+        super().__init__(listener)
+        self.name = name
 
     def warn(self, sentence):
         self.listener.warn_at(self.name, sentence)
-
-    def step(self, snapshot):
-        self.listener.step(snapshot)
-
-    def stage(self, name, done, total):
-        self.listener.stage(name, done, total)
