@@ -4,7 +4,6 @@ import numpy as np
 
 from tehl_taichi.errors import StoreError, extra
 from tehl_taichi.store import integrity
-from tehl_taichi.store.written_chunks import EVERY
 
 NAMES = {"component": ["xx", "yy", "zz", "xy", "xz", "yz"], "direction": ["x", "y", "z"],
          "of_circle": ["along dip", "along strike", "radius"]}
@@ -20,8 +19,7 @@ def dataset(path):
         from tehl_taichi.store import checked_zarr
     except ImportError:
         raise StoreError(f"a dataset needs xarray: {extra('xarray')}") from None
-    attrs, arrays = integrity.root_of(path)
-    data = checked_zarr.opened(path, arrays, attrs.get(EVERY) is True)
+    data = checked_zarr.opened(path, *integrity.root_of(path))
     data = data.set_coords([name for name in ALONG_TIME if name in data])
     missing = {dim: size for dim, size in data.sizes.items() if dim not in data.coords}
     return data.assign_coords({dim: _coordinate(dim, size) for dim, size in missing.items()})

@@ -15,26 +15,26 @@ from tehl_taichi.disk.links import ROOT
 from tehl_taichi.store import chunks, written_chunks
 
 
-def opened(path, arrays, every, **options):
-    """Open the group at `path` as an xarray.Dataset. arrays: {name: metadata}; every: value of
-    :data:`tehl_taichi.store.written_chunks.EVERY`; options: of xarray.open_zarr. Raises StoreError, also while data are loaded.
+def opened(path, attrs, arrays, **options):
+    """Open the group at `path` as an xarray.Dataset. attrs: its attributes; arrays: {name: metadata}; options: of
+    xarray.open_zarr. Raises StoreError, also while data are loaded.
     """
     path = Path(path)
-    written_chunks.check(path, arrays, every)
-    data = xarray.open_zarr(CheckedFiles(path, arrays, every), **options)
+    written_chunks.check(path, arrays, attrs)
+    data = xarray.open_zarr(CheckedFiles(path, attrs, arrays), **options)
     data.encoding["source"] = str(path)
     return data
 
 
 class CheckedFiles(LocalStore):
-    """Read-only files of the group at `root`; arrays, every: as for :func:`opened`."""
+    """Read-only files of the group at `root`; attrs, arrays: as for :func:`opened`."""
 
-    def __init__(self, root, arrays, every):
+    def __init__(self, root, attrs, arrays):
         super().__init__(root, read_only=True)
-        self.arrays, self.every = arrays, every
+        self.attrs, self.arrays = attrs, arrays
 
     def with_read_only(self, read_only=True):
-        return type(self)(self.root, self.arrays, self.every)
+        return type(self)(self.root, self.attrs, self.arrays)
 
     def __dask_tokenize__(self):  # else dask takes a rewritten store for the old one
         return type(self).__name__, str(self.root), os.stat(self.root / ROOT).st_mtime_ns
@@ -52,7 +52,7 @@ class CheckedFiles(LocalStore):
         if array is None or not file.startswith("c"):
             return found
         if found is None:
-            written_chunks.check(self.root, {name: array}, self.every)
+            written_chunks.check(self.root, {name: array}, self.attrs)
         elif part is None and any(codec["name"] == "zstd" for codec in array["codecs"]):
             chunks.verify(self.root / key, found.to_bytes(), _bytes(array))
         return found

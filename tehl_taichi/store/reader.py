@@ -76,11 +76,6 @@ class Reader:
         return integrity.written_by(self.attrs)
 
     @property
-    def every_chunk(self):
-        """Whether its writer left out no chunk, see :mod:`tehl_taichi.store.written_chunks`."""
-        return self.attrs.get(written_chunks.EVERY) is True
-
-    @property
     def cut(self):
         """Position (a) at which the passage is cut inside the contact, or None."""
         return cut_at(self.scene)
@@ -171,7 +166,7 @@ class Reader:
         return out
 
     def _whole(self, name):
-        written_chunks.check(self.path, {name: self.metadata.get(name, {})}, self.every_chunk)
+        written_chunks.check(self.path, {name: self.metadata.get(name, {})}, self.attrs)
         return array_file.read_whole(self.path / name)
 
     @property

@@ -16,10 +16,9 @@ def name(array, numbers):
     return between.join(["c", *map(str, numbers)])
 
 
-def check(store, arrays, every):
-    """Refuse the store at this path if a chunk of its arrays {name: metadata} is missing; every: value of EVERY. Raises
-    StoreError.
-    """
+def check(store, arrays, attrs):
+    """Refuse the store at this path if a chunk of its arrays {name: metadata} is missing. Raises StoreError."""
+    every = attrs.get(EVERY) is True
     for folder, array in ((store / name, array) for name, array in arrays.items()):
         try:
             missing = _missing(folder, array, every)

@@ -20,7 +20,7 @@ def path(tmp_path):
 
 
 def opened(path, **options):
-    return checked_zarr.opened(path, integrity.root_of(path)[1], True, **options)
+    return checked_zarr.opened(path, *integrity.root_of(path), **options)
 
 
 @pytest.mark.parametrize("options", [{}, {"chunks": None}])

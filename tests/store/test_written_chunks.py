@@ -27,7 +27,7 @@ def path(template, tmp_path):
 
 def check(path):
     attrs, arrays = integrity.root_of(path)
-    written_chunks.check(path, arrays, attrs.get(written_chunks.EVERY) is True)
+    written_chunks.check(path, arrays, attrs)
 
 
 def edit(path, change):
@@ -63,7 +63,7 @@ def test_fill_values_that_version_0_9_left_out_are_read(path):
     of_version_0_9(path)
     check(path)
     saved = Store.open(path)
-    assert not saved.every_chunk and str(saved.map("none")) == "[nan]" and saved.map("Fi").tolist() == [[1.0, 2.0]]
+    assert str(saved.map("none")) == "[nan]" and saved.map("Fi").tolist() == [[1.0, 2.0]]
 
 
 def test_entries_that_are_not_yet_shown_need_no_chunk(path):

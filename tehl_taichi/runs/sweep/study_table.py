@@ -268,7 +268,7 @@ class Study(LockedFolder):
             from tehl_taichi.store import checked_zarr
         except ImportError:
             raise StoreError(f"xarray is not installed: {extra('xarray')}") from None
-        return checked_zarr.opened(self.path, _arrays(self.path), every=False).load()
+        return checked_zarr.opened(self.path, {}, _arrays(self.path)).load()
 
     def plot(self, folder: str | PathLike | None = None, quantity: str | None = None, dpi: int = 160, format: str = "png",
              width: float = 17.0, force: bool = False) -> list:

@@ -24,7 +24,7 @@ def write(reader, path, places):
         raise StoreError(f"NetCDF needs {error.name}: {extra('xarray')}") from None
     for name in reader.metadata:
         array_file.check(reader.path / name)
-    with checked_zarr.opened(reader.path, reader.metadata, reader.every_chunk, chunks=None, decode_times=False) as data:
+    with checked_zarr.opened(reader.path, reader.attrs, reader.metadata, chunks=None, decode_times=False) as data:
         for variable in data.variables.values():
             variable.encoding = {}  # zarr's codecs, which HDF5 has not
         data.attrs = {name: _plain(value) for name, value in data.attrs.items()}
