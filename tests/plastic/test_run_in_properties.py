@@ -2,6 +2,7 @@
 axis."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import made_run_in
 import numpy as np
@@ -53,7 +54,8 @@ def test_steel_flows_by_shear_also_where_fatigue_leaves_it_out():
 
 
 def test_cells_that_residual_stress_brings_near_yielding_are_followed():
-    """Against all cells of every layer, at two moments: none of those near the flow stress is left out."""
+    """Against all cells of every layer, at two moments: none of those near the flow stress is left out, with residual stress
+    or, because flow changes it, without."""
     passage, cells = passage_and_cells(STEEL)
     state, left = SteelState.virgin(cells), np.array([-6e8, 0, 0, 0, 0, 0])
     state.residual[:, 0] = left[0]
@@ -66,7 +68,25 @@ def test_cells_that_residual_stress_brings_near_yielding_are_followed():
             stress = np.moveaxis(np.array(passage.under(field, moment)), 0, -1)
             followed = np.zeros(stress.shape[:-1], bool)
             followed[seen.places[1], seen.places[2]] = True
-            assert followed[von_mises(stress + left) > elastic_loads.NEAR * look.limits[layer]].all()
+            for each in (stress + left, stress):
+                assert followed[von_mises(each) > elastic_loads.NEAR * look.limits[layer]].all()
+
+
+def test_a_layer_has_the_ratios_of_the_layers_of_the_first_look_around_it():
+    found = {layer: {0: SimpleNamespace(largest=0.1 * layer), 1: SimpleNamespace(largest=0.0)}
+             for layer in range(0, 9, elastic_loads.EVERY)}
+    assert [sorted(elastic_loads._neighbouring_ratios(found, layer)) for layer in (0, 1, 4, 7, 9)] == [
+        [0.0], [0.0, 0.4], [0.4], [0.4, 0.8], [0.8]]
+
+
+@pytest.mark.parametrize("sinking, change, settled", [(1e-6, 1.9e-8, True), (1e-6, 2.1e-8, False), (1e-8, 0.9e-9, True),
+                                                      (1e-8, 1.1e-9, False)])
+def test_a_surface_settles_within_its_share_or_a_nanometre(sinking, change, settled):
+    zero, left = np.zeros((1, 6, 2, 1)), np.array([[sinking], [0.0]])
+    steel = SteelState(zero, zero[:, 0], zero, left)
+    body = run_in.BodyRunIn(np.arange(2.0), np.zeros(1), np.ones(1), False, steel, left - change)
+    state = run_in._next_round(run_in.RunInState({"a": body}), {"a": steel})
+    assert (state.passages, state.rounds) == ((1, 0) if settled else (0, 1)) and state.unsettled == 0.0
 
 
 def test_the_range_of_residual_stress_is_that_of_the_components_in_the_store():

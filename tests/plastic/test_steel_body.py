@@ -117,6 +117,15 @@ def test_hardened_steel_does_not_flow_again_under_the_load_that_it_had():
     assert np.array_equal(again.sinking, left.sinking)
 
 
+def test_a_load_after_another_is_one_passage_with_both():
+    """The residual stress of the first passage stays where the second one flows further."""
+    first, one = (pressed(PERFECT, 2.2e9, loads)[1] for loads in ([3.9e9], [3.9e9, 4.2e9]))
+    other = pressed(PERFECT, 2.2e9, [4.2e9], first)[1]
+    assert 0.2 * one.sinking.max() < first.sinking.max() < 0.8 * one.sinking.max()
+    assert_allclose(other.sinking, one.sinking, atol=0.01 * one.sinking.max())
+    assert_allclose(other.residual, one.residual, atol=0.01 * np.abs(one.residual).max())
+
+
 def test_mirrored_rows_are_half_of_the_whole():
     half, whole = (pressed(SWIFT, 2.374e9, STEPS, mirrored=one)[1] for one in (True, False))
     assert_allclose(whole.sinking[:, COUNT // 2 :], half.sinking, atol=1e-14)

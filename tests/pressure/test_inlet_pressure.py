@@ -28,6 +28,24 @@ def flow_balance(q, H, step):
     return (half[1] * (q[2] - q[1]) - half[0] * (q[1] - q[0])) / step**2
 
 
+def test_the_border_of_a_half_domain_is_half_of_that_of_the_whole(taichi_cpu):
+    """The first column and, before the contact, the sides; not the plane of symmetry."""
+    scene = BALL.replace(**{"grid.nx": 32, "grid.ny": 16, "grid.x_min": -2.0, "thermal.on": False})
+    half, whole = (Inlet(Levels(scene, Scales.of(scene), 32, rows, full)).border for rows, full in ((8, False), (16, True)))
+    assert np.array_equal(whole[8:], half) and np.array_equal(whole, whole[::-1])
+    assert half[:, 0].all() and half[-1].sum() > 10 and half[:-1].sum() == 8
+
+
+def test_a_border_whose_film_answers_in_proportion_moves_twice():
+    """Aitken's part of the second move is the whole way, whatever the answer."""
+    inlet, q, answer = Inlet.__new__(Inlet), np.zeros(3), np.array([4.0, 1.0, 2.0])
+    inlet.part, inlet.before = 1.0, None
+    for _ in range(2):
+        miss = answer - 1.5 * q  # of the film that the pressure q leaves
+        q = q + inlet._aitken(miss) * miss
+    assert q == pytest.approx(answer / 1.5)
+
+
 @pytest.mark.parametrize("ratio", [0.25, 1.0, 3.0])
 def test_beyond_rigid_paraboloids_the_oil_obeys_the_reynolds_equation(taichi_cpu, ratio):
     """Div(H^3 grad q) = dH/dX at y = 0, by the borders of three domains; R_x/R_y: ratio."""

@@ -121,6 +121,7 @@ def test_a_latin_hypercube_has_a_sample_in_every_part():
     columns = {key: made.coordinate(key)[1] for key in over}
     assert sorted(np.floor((np.array(columns["srr"]) + 0.3) / 0.03).astype(int)) == list(range(20))
     assert sorted(np.floor(20 * np.log(columns["speed"]) / np.log(20)).astype(int)) == list(range(20))
+    assert np.ptp((np.array(columns["srr"]) + 0.3) / 0.03 % 1) > 0.5  # anywhere in its part
     assert columns["rheology.law"].count("eyring") == 10 and {type(value) for value in columns["thermal.nodes"]} == {int}
     assert plan(GEAR, over, samples=20, seed=3) == made != plan(GEAR, over, samples=20, seed=4)
     for wrong in ({"samples": 0}, {"samples": 2.5}, {"samples": 2, "seed": -1}):
