@@ -5,7 +5,7 @@ import numpy as np
 from tehl_taichi.scene.surface.maps import coordinates
 
 FEWEST = 8  # heights
-EVEN = 0.05  # of a step, by which places are off without any harm
+EVEN = 0.05  # of a step, by which places (in `coordinates`: steps) are off without any harm
 UNEVEN = "uneven distances (heights interpolated at even ones)"
 
 

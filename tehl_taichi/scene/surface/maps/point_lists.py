@@ -8,7 +8,7 @@ import numpy as np
 from tehl_taichi.scene.surface.maps import coordinates
 
 ROUNDED = 1e-6  # of the range of coordinates: digits beyond are rounding
-EVEN = 0.1  # of a step, by which rounded coordinates depart from even ones
+EVEN = 0.1  # of a step, more than in `coordinates`: few rounded coordinates that form a grid are no chance
 WHOLE = 0.5  # of the points of a grid, at least, that are in the list
 FEWEST = 4  # points along each axis
 

@@ -5,7 +5,7 @@ import pytest
 from map_feature import feature
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene.surface.maps import coordinates, height_map
+from tehl_taichi.scene.surface.maps import coordinates, height_map, point_lists
 
 ROWS, COLUMNS = 12, 17
 HEIGHTS = np.round(0.1 * np.random.default_rng(4).standard_normal((ROWS, COLUMNS)).cumsum(0).cumsum(1) / 9, 4)
@@ -186,3 +186,12 @@ def test_a_list_of_scattered_points_is_refused(tmp_path, points):
     np.save(tmp_path / "scan.npy", points)
     with pytest.raises(SceneError, match="is a list of points that lie on no regular grid; export the heights as a grid"):
         feature(tmp_path / "scan.npy")
+
+
+def test_a_list_of_few_rounded_points_is_a_grid():
+    """0, 0.17, 0.33, 0.5, ... along both axes; places on another grid, 0, 0.1, 0.3, ... are none."""
+    z = np.random.default_rng(4).random((7, 7))
+    for places, known in ((np.round(np.linspace(0, 1, 7), 2), True), (np.cumsum(np.arange(7) / 10), False)):
+        x, y = (one.ravel() for one in np.meshgrid(places, places))
+        found = point_lists.grid_of(np.column_stack([x, y, z.ravel()]))
+        assert (found is not None) == known and (not known or np.array_equal(found[0], z))

@@ -14,7 +14,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.report import surface_plots
 from tehl_taichi.scene import scan_scene, scene, scene_file
 from tehl_taichi.scene.feature import Feature
-from tehl_taichi.scene.surface.maps import height_map
+from tehl_taichi.scene.surface.maps import height_map, line_profiles
 from tehl_taichi.view.figures import height_profile
 
 X = 2.0 * np.arange(150)  # um
@@ -80,6 +80,14 @@ def test_uneven_places_are_made_even(tmp_path):
     np.savetxt(tmp_path / "b.txt", np.column_stack([x, 0.01 * x]), fmt="%.6f")  # a stylus does not go back
     with pytest.raises(SceneError, match="at least 4 x 4 heights"):
         height_map.table_of(tmp_path / "b.txt")
+
+
+@pytest.mark.parametrize("off, kept", [(0.04, True), (0.08, False)])
+def test_places_that_are_off_by_little_keep_their_heights(off, kept):
+    x, z = np.arange(60.0), np.random.default_rng(2).random(60)
+    x[1:-1:2] += off
+    heights, _, found = line_profiles.heights_of(np.column_stack([x, z]))
+    assert np.array_equal(heights[0], z) == kept and (line_profiles.UNEVEN not in found) == kept
 
 
 @pytest.mark.parametrize("changes", [{}, {"level": "plane"}, {"level": "form"}, {"cutoff": 40e-6}, {"scale": -2.0},
