@@ -106,6 +106,7 @@ def test_a_step_counts_the_work_of_attempts_that_failed(monkeypatch):
 
     def solve(*args, **options):
         asked.append((args, options))
+        solver.H0 += 0.5  # a failed attempt leaves another approach
         return reports[len(asked) - 1]
 
     numerics = SimpleNamespace(newton_max=30)
