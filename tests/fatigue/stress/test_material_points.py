@@ -10,7 +10,7 @@ import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment, findley
 from tehl_taichi.fatigue.stress import row_histories
 from tehl_taichi.fatigue.stress import thermal_stress as ts
-from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.fatigue.stress.histories import StressHistories, between
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.sections import Body
 
@@ -241,3 +241,9 @@ def test_a_mirrored_line_has_mirrored_stresses(depth):
         found.append(np.array(history)[:, 0])
         np.testing.assert_allclose(one.reshape(-1, 7, *one.shape[1:]).swapaxes(0, 1), found[-1], atol=3e-6 * np.abs(one).max())
     np.testing.assert_allclose(found[0], signs * found[1][::-1], atol=3e-6 * np.abs(found[0]).max())
+
+
+def test_fields_between_moments_are_linear_in_time():
+    ticks = np.array([2, 3, 7, 9])
+    fields = (np.array([1.0, -2.0]) + np.array([3.0, 0.5]) * t for t in ticks)
+    np.testing.assert_allclose(list(between(fields, ticks)), [[1 + 3 * t, -2 + 0.5 * t] for t in range(2, 10)])
