@@ -12,6 +12,7 @@ import tehl_taichi as tehl
 from tehl_taichi.crack import symmetry_plane
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.fatigue import local_strength
+from tehl_taichi.fatigue.sought import Box
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.residual_field import ResidualField
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
@@ -172,13 +173,17 @@ def test_residual_fields_are_linear_between_points_and_free_at_the_surface():
     assert not found[:, :, 4].any() and not field(x, y).at(np.array([2e-4]), at_y, deep).any()
 
 
-def test_histories_hold_the_residual_field_of_their_reader():
+@pytest.mark.parametrize("first", [0, 1])
+def test_histories_hold_the_residual_field_of_their_reader(first):
+    """Of all rows, or of those from the second one on."""
     reader = Rolling(GEAR)
     positions = np.array([reader.feature_x(n) for n in range(len(reader))])
-    plain = StressHistories(GEAR, reader, positions)
+    box = Box((-np.inf, np.inf), (reader.y[first], np.inf))
+    plain = StressHistories(GEAR, reader, positions, box=box)
     reader.residual_fields = {"a": field(plain.x, plain.y), "b": field(plain.x, 2 * plain.y)}
-    left = StressHistories(GEAR, reader, positions)
-    depths, rows = [5e-6, 9e-6], slice(1, 3)
+    left = StressHistories(GEAR, reader, positions, box=box)
+    assert left.rows.start == first
+    depths, rows = [5e-6, 9e-6], slice(1 - first, 3 - first)
     wanted = reader.residual_fields["a"].at(plain.x, plain.y, np.array([0.0, *depths]))
     kinds = [(row, False) for row in range(plain.rows.start, plain.rows.stop)]
     more = [(one, two - one) for one, two in zip(*(np.stack(histories_of(one, depths, kinds)) for one in (plain, left)))]

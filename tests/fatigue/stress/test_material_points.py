@@ -10,7 +10,7 @@ import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment, findley
 from tehl_taichi.fatigue.stress import row_histories
 from tehl_taichi.fatigue.stress import thermal_stress as ts
-from tehl_taichi.fatigue.stress.histories import StressHistories, between
+from tehl_taichi.fatigue.stress.histories import COMPONENTS, StressHistories, between
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.sections import Body
 
@@ -247,3 +247,14 @@ def test_fields_between_moments_are_linear_in_time():
     ticks = np.array([2, 3, 7, 9])
     fields = (np.array([1.0, -2.0]) + np.array([3.0, 0.5]) * t for t in ticks)
     np.testing.assert_allclose(list(between(fields, ticks)), [[1 + 3 * t, -2 + 0.5 * t] for t in range(2, 10)])
+
+
+def test_heat_of_an_entry_is_that_of_its_time():
+    """Where steps between the stored ones are left out, entries are fewer than the equal steps of conduction."""
+    scene = gear()
+    reader = Formula(scene)
+    reader.time = reader.time[0] + np.r_[0, 1, 3, np.arange(4.0, len(reader) + 1)] * (reader.time[1] - reader.time[0])
+    passage, rows = StressHistories(scene, reader, reader.centres), slice(0, 1)
+    field = passage._stress_field(2, rows, lambda *_: {name: np.zeros((1, 1)) for name in COMPONENTS},
+                                  lambda tick, _: np.full((6, 1, 1), float(tick)))
+    assert (field == 3.0).all()
