@@ -53,6 +53,21 @@ def test_each_node_has_one_line(run):
     assert min(first.size, second.size) > 5 and not np.isclose(first[:, None], second).any()
 
 
+def test_the_largest_pressure_of_a_window_is_that_of_its_own_nodes(run):
+    """A peak at a node that belongs to the other window counts there."""
+    windows, shared = ZoomWindow.all_of(run.store), 0
+    for window in windows:
+        before, real = window.extremes("p_max_Pa"), window.read["pressure"].copy()
+        for n, entry in enumerate(window.entries):
+            own = window.own(entry)
+            for place, changed in ((own, 1), (~own, 0)):
+                window.read["pressure"] = real.copy()
+                window.read["pressure"][n][place] = 9e9
+                assert np.flatnonzero(window.extremes("p_max_Pa") != before).tolist() == [n] * changed
+            shared += (~own).sum()
+    assert shared > 10
+
+
 def test_the_report_shows_both(run):
     section, = zoom_plots.section(run.store)
     names = [figure.name for block in section.shown for figure in block.data["figures"]]
