@@ -79,7 +79,7 @@ class Scalars:
 def of(Fi, error, wide, wide_error):
     """A summary with an index at the surface and an averaged one."""
     return {"surface": "a", "Fi_max": Fi, "error": {"Fi_max": error}, "surface_angle_deg": 30.0,
-            "averaged": {"length_m": 1e-5, "Fi_max": wide, "error": {"Fi_max": wide_error}}}
+            "averaged": {"length_m": 1e-5, "Fi_max": wide, "error": {"Fi_max": wide_error}, "surface_angle_deg": 35.0}}
 
 
 @pytest.mark.parametrize("error, wide_error, leads", [(None, 0.01, True), (0.2, 0.01, False), (None, None, False)])
