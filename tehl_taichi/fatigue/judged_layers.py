@@ -1,10 +1,48 @@
 """Numbers that decide a verdict: at and below the surface, of the whole passage or of its resolved part."""
 
+from dataclasses import dataclass
+
 from tehl_taichi.fatigue import material_length
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.values.digits import micrometres
 
 ABOVE, WITHIN, BELOW = 1, 0, -1
+
+
+@dataclass(frozen=True)
+class JudgedPoint:
+    """A point at or below a surface whose index counts. where: text of its place; part: of a summary, with the index under
+    `key`; surface: its name, None if unknown; length: over which its stresses are averaged, m, else 0.
+    """
+
+    where: str
+    part: dict
+    key: str
+    surface: str | None = None
+    length: float = 0.0
+
+    @property
+    def Fi(self):
+        return self.part[self.key]
+
+    @property
+    def error(self):
+        return error_of(self.part, self.key)
+
+    @property
+    def depth(self):
+        """Below the surface, m."""
+        return self.part.get("depth_m", 0.0)
+
+    @property
+    def rank(self):
+        """Order in which points decide."""
+        return standing(self.Fi, self.error), self.Fi
+
+    @property
+    def layer(self):
+        """(where, Fi, its error or None)."""
+        return self.where, self.Fi, self.error
 
 
 def judged(Fi, error=None):
@@ -33,15 +71,22 @@ def deciding(searches):
     return searches, False
 
 
+def judged_point(searches):
+    """The :class:`JudgedPoint` whose index decides the verdict on {surface: summary of its search}: the worst."""
+    return max(judged_points(deciding(searches)[0]), key=lambda point: point.rank)
+
+
 def worst_layer(searches):
-    """The :func:`layers` entry that decides the verdict on {surface: summary of its search}: the worst."""
-    return max(all_layers(deciding(searches)[0]), key=lambda one: (standing(*one[1:]), one[1]))
+    """The :func:`layers` entry that decides the verdict."""
+    return judged_point(searches).layer
 
 
 def deciding_point(searches):
     """(text of the place, part) of the point that decides; of rough surfaces, whose percentile has no place, the worst one."""
-    points = [point for surface, found in _named(deciding(searches)[0]) for point in _points(searched(found), surface)]
-    return max(points, key=lambda one: (standing(one[1]["Fi_max"], error_of(one[1], "Fi_max")), one[1]["Fi_max"]))
+    found = deciding(searches)[0]
+    worst = max((point for name, one in found.items() for point in _points(searched(one), _text(name, found), name)),
+                key=lambda point: point.rank)
+    return worst.where, worst.part
 
 
 def _settled(searches):
@@ -52,44 +97,47 @@ def _settled(searches):
 
 def all_layers(searches):
     """The :func:`layers` of each {surface: summary of its search}; with two surfaces the texts name them."""
-    return [layer for surface, found in _named(searches) for layer in layers(found, surface)]
+    return [point.layer for point in judged_points(searches)]
 
 
-def _named(searches):
-    """[(text of the surface, summary of its search)]."""
-    return [("the surface" if len(searches) == 1 else f"surface {name}", found) for name, found in searches.items()]
+def judged_points(searches):
+    """[:class:`JudgedPoint`] at and below each surface, of {surface: summary of its search}; with two the texts name them. For
+    rough surfaces the index is the 99th percentile.
+    """
+    return [point for name, found in searches.items() for point in _judged(searched(found), _text(name, searches), name)]
 
 
 def layers(fatigue, surface="the surface"):
-    """[(text of the place, Fi, its error or None)] at and below the surface, of a search or its part. For rough surfaces Fi is
-    the 99th percentile.
-    """
-    fatigue = searched(fatigue)
-    if fatigue.get("rough"):
-        return _percentile_layers(fatigue, surface)
-    return [(where, part["Fi_max"], error_of(part, "Fi_max")) for where, part in _points(fatigue, surface)]
+    """[(text of the place, Fi, its error or None)] at and below the surface, of a search or its part."""
+    return [point.layer for point in _judged(searched(fatigue), surface, None)]
 
 
-def _points(fatigue, surface):
-    """[(text of the place, part)] at and below the surface."""
-    return [(f"{_where(part, surface)}{_over(length)}", part) for part, length in material_length.leading(fatigue)]
+def _text(name, searches):
+    return "the surface" if len(searches) == 1 else f"surface {name}"
+
+
+def _judged(fatigue, surface, name):
+    return (_percentiles if fatigue.get("rough") else _points)(fatigue, surface, name)
+
+
+def _points(fatigue, surface, name):
+    """[JudgedPoint] at and below the surface."""
+    return [JudgedPoint(f"{_where(part, surface)}{over(length)}", part, "Fi_max", name, length)
+            for part, length in material_length.leading(fatigue)]
 
 
 def _where(part, surface):
     return f"{micrometres(part['depth_m'])} µm below {surface}" if "depth_m" in part else f"at {surface}"
 
 
-def _over(length):
+def over(length, um="µm"):
     """Text after a place whose stresses are averaged over `length` (m); "" for length 0."""
-    return f" (stresses averaged over {micrometres(length)} µm)" if length else ""
+    return f" (stresses averaged over {micrometres(length)} {um})" if length else ""
 
 
-def _percentile_layers(fatigue, surface):
-    top, deep = fatigue["statistics"], fatigue.get("below", {}).get("statistics")
-    found = [(f"at {surface}", top["p99"], error_of(top, "p99"))]
-    if deep:
-        found.append((f"{micrometres(deep['depth_m'])} µm below {surface}", deep["p99"], error_of(deep, "p99")))
-    return found
+def _percentiles(fatigue, surface, name):
+    both = fatigue["statistics"], fatigue.get("below", {}).get("statistics")
+    return [JudgedPoint(_where(part, surface), part, "p99", name) for part in both if part]
 
 
 def error_of(part, key):

@@ -32,13 +32,18 @@ def of(folder):
         Section("Loads and contacts", (facts(bearing_table.facts(found)), figure_block(*figures(found)))),
         *(dataclasses.replace(one, front=True) for one in maps[:1]), *maps[1:],
         *place_sections.scene(store, f"the {ring} ring"),
-        Section("Both rings", tuple(table(["quantity", "inner ring", "outer ring"], rows, title)
-                                    for title, rows in bearing_table.tables(found).items())),
+        Section("Both rings", (*(table(["quantity", "inner ring", "outer ring"], rows, title)
+                                 for title, rows in bearing_table.tables(found).items()),
+                               sentences(place_sections.passages(_results(found), lambda ring: f"the {ring} ring")))),
         Section("Elements", (table(heads, rows),)),
         Section("Not converged", (sentences([f"{ring} ring: {reason}" for ring, reason in found.failed.items()]),)),
         Section("Bearing", (facts(_dimensions(found)), sentences(_sources(found)))),
         Section("Warnings", (sentences(bearing_table.warnings(found)),)),
         Section("Provenance", (facts(_provenance(found)),))))
+
+
+def _results(found):
+    return [(ring, None, one["summary"]) for ring, one in found.rings.items()]
 
 
 def _store(found):

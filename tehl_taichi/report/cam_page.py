@@ -22,6 +22,7 @@ def of(folder, out=None):
         Section("Over the cycle", (figure_block(*figures(cam)),)),
         Section("Angles", (*(table([unit_spelled(head) for head in heads], lines, title)
                              for title, (heads, lines) in cam_columns.tables(cam.rows).items()),
+                           sentences(place_sections.passages(cam.rows, _words)),
                            position_pages.line(cam, out, _words))),
         *place_sections.critical(store, words), *place_sections.scene(store, words),
         Section("Without a result", (sentences([f"{at.words}: {reason}" for at, reason in cam.failed]),)),

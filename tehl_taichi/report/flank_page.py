@@ -35,6 +35,7 @@ def of(folder, out=None):
         Section("Along the flank", (figure_block(*figures(flank)),)),
         Section("Positions", (*(table([unit_spelled(head) for head in heads], lines, title)
                                 for title, (heads, lines) in tables(flank.rows).items()),
+                              sentences(place_sections.passages(flank.rows, short_name)),
                               position_pages.line(flank, out, short_name))),
         *place_sections.critical(store, words), *place_sections.scene(store, words),
         Section("Not converged", (sentences([f"{_where(at)}: {reason}" for at, reason in flank.failed]),)),

@@ -56,6 +56,18 @@ def scene(store, words):
                               facts([*scene_text.oil_numbers(one), *scene_text.grid_numbers(one)]), whole)))
 
 
+def passages(rows, words):
+    """(sentence about the index behind the passages in a table of places,), () without passages. rows: (place, Hertz pressure,
+    summary or None); words: function of a place that gives its text.
+    """
+    found = {words(at): early for at, *_, summary in rows if (early := value_at(summary, "life", "resolved")) is not None}
+    if not found:
+        return ()
+    early = ", ".join(name for name in found if found[name])
+    most = f"; at {early} the grid does not resolve the pressure of the whole passage, which can only lower them"
+    return (f"Passages and hours to initiation are those of the index that decides at each place{most * bool(early)}.",)
+
+
 def limit(store):
     """Sentences about the meaning of Fi = 1; () without an index."""
     if not store or not {"fatigue", "contact_alone"} & store.summary.keys():

@@ -11,6 +11,7 @@ from tehl_taichi.fatigue.judged_layers import (
     deciding_point,
     error_of,
     judged,
+    over,
     standing,
 )
 from tehl_taichi.fatigue.judged_surfaces import others
@@ -55,7 +56,7 @@ def _life(summary):
         return ()
     found = summary["life"]
     where = f"{micrometres(found['depth_m'])} µm below surface" if found["depth_m"] else "at surface"
-    return (f"Initiation {where} {found['surface']}: {life.words(found)}.",)
+    return (f"Initiation {where} {found['surface']}{over(found.get('length_m', 0.0))}: {life.words(found)}.",)
 
 
 def _read_first(warnings):

@@ -8,7 +8,7 @@ from typing import Callable
 
 from tehl_taichi.runs import place_warnings
 from tehl_taichi.runs.bearing.ring_contacts import RINGS
-from tehl_taichi.runs.flank.flank_columns import PASSAGE, error_of, title_of, value_at
+from tehl_taichi.runs.flank.flank_columns import PASSAGE, error_of, judged_index, title_of, value_at
 from tehl_taichi.values.digits import with_error
 from tehl_taichi.values.escape import cell
 
@@ -114,6 +114,8 @@ ROWS = (
     _result(PASSAGE, "passage_h_min_m", "smallest film, um", 1e6, ".3g", "transient", "h_min_m"),
     _result(PASSAGE, "Fi_max", "Fi at the surface", 1, ".3f", "fatigue", "Fi_max"),
     _result(PASSAGE, "Fi_max_below", "Fi below the surface", 1, ".3f", "fatigue", "below", "Fi_max"),
+    RingRow(PASSAGE, "Fi_judged", "Fi judged", 1, ".3f", lambda bearing, ring: judged_index(ring["summary"])[0],
+            lambda bearing, ring: judged_index(ring["summary"])[1]),
     _result(PASSAGE, "von_mises_max_Pa", "largest von Mises stress, GPa", 1e-9, ".3f", "von_mises", "max_Pa"),
     _result(PASSAGE, "passages", "passages to initiation", 1, ".2g", "life", "passages"),
     _result(PASSAGE, "hours", "hours to initiation", 1, ".2g", "life", "hours"))

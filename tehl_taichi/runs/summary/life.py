@@ -1,9 +1,9 @@
-"""Passages to crack initiation at the worst point, from the slope of the S-N curve."""
+"""Passages to crack initiation at the point that decides the verdict, from the slope of the S-N curve."""
 
 import math
 
-from tehl_taichi.fatigue import material_length
-from tehl_taichi.fatigue.pressure_alone import searched, why_none
+from tehl_taichi.fatigue import judged_layers
+from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.values.coded_text import reasons_of, unknown_of
 from tehl_taichi.values.digits import with_error
 
@@ -15,16 +15,16 @@ def of_searches(searches, fatigue):
 
     searches: {surface: summary of its search}, with errors; fatigue: the section of the scene.
     """
-    found = [(name, *part) for name, one in searches.items() if not why_none(one) for part in _parts(searched(one))]
-    surface, worst, key = max(found, key=lambda one: one[1][one[2]], default=("", {}, ""))
-    Fi, error = worst.get(key, 0.0), worst.get("error", {}).get(key)
-    if not fatigue.exponent or Fi <= LEAST:
+    if not fatigue.exponent or not searches or any(map(why_none, searches.values())):
         return {}
-    passages, reasons = fatigue.limit_cycles * Fi**-fatigue.exponent, reasons_of(worst)
-    return {"passages": passages, "exponent": fatigue.exponent, "limit_cycles": fatigue.limit_cycles, "Fi": Fi,
-            "surface": surface, "depth_m": worst.get("depth_m", 0.0),
-            "error": {"passages": bar(passages, Fi, error, fatigue.exponent)},
-            **unknown_of({"passages": reasons[key]} if key in reasons else {})}
+    point, early = judged_layers.judged_point(searches), judged_layers.deciding(searches)[1]
+    if point.Fi <= LEAST:
+        return {}
+    passages, reasons = fatigue.limit_cycles * point.Fi**-fatigue.exponent, reasons_of(point.part)
+    return {"passages": passages, "exponent": fatigue.exponent, "limit_cycles": fatigue.limit_cycles, "Fi": point.Fi,
+            "surface": point.surface, "depth_m": point.depth, "length_m": point.length, "resolved": early,
+            "error": {"passages": bar(passages, point.Fi, point.error, fatigue.exponent)},
+            **unknown_of({"passages": reasons[point.key]} if point.key in reasons else {})}
 
 
 def part(searches, fatigue):
@@ -45,14 +45,6 @@ def bar(passages, Fi, error, exponent):
         return None
 
 
-def _parts(found):
-    """[(part of a search, its index)] at the surface and below it, as in the verdict."""
-    if found.get("rough"):
-        both = found["statistics"], found.get("below", {}).get("statistics")
-        return [(part, "p99") for part in both if part]
-    return [(part, "Fi_max") for part, _ in material_length.leading(found)]
-
-
 def number(life):
     """Text of the number of passages: with its error, or as an interval if the error is as large as the number."""
     passages, error = life["passages"], life["error"]["passages"]
@@ -66,6 +58,7 @@ def number(life):
 def words(life):
     """Text such as 'after 5.3e5 ± 0.4e5 passages', without a subject, for a part "life" of a summary."""
     slope = f"by the exponent {life['exponent']:g} of the S-N curve"
+    most = "; pressures that the grid does not resolve can only lower the number" * life.get("resolved", False)
     if life["Fi"] < 1:
-        return f"below the limit, which stands for {life['limit_cycles']:.3g} passages; {slope} after {number(life)}"
-    return f"after {number(life)} passages, {slope}"
+        return f"below the limit, which stands for {life['limit_cycles']:.3g} passages; {slope} after {number(life)}{most}"
+    return f"after {number(life)} passages, {slope}{most}"

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from types import MappingProxyType
 
+from tehl_taichi.fatigue.judged_layers import over
 from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.march import quantities
 from tehl_taichi.march.accuracy.coarse_runs import AREA, CONTACT
@@ -118,10 +119,11 @@ def _passage_rows(summary):
 
 
 def _life_rows(summary):
-    """Passages to initiation at the worst point."""
+    """Passages to initiation at the point that decides."""
     if not (found := summary.get("life")):
         return []
     where = (at_depth(found) if found["depth_m"] else ", at the surface") + f" ({found['surface']})"
+    where += over(found.get("length_m", 0.0), "um") + ", while resolved" * found.get("resolved", False)
     row = row_of(found, "passages", f"passages to initiation, exponent {found['exponent']:g}", where=where)
     return [replace(row, value=life.number(found))]
 

@@ -1,6 +1,7 @@
 """A whole bearing: what names it, its scenes and files, its page, and one that is computed."""
 
 import csv
+import dataclasses
 import json
 import math
 import shutil
@@ -23,6 +24,7 @@ from tehl_taichi.runs.flank import outcomes
 from tehl_taichi.runs.flank.flank_columns import PASSAGE
 from tehl_taichi.runs.flank.outcomes import Outcome
 from tehl_taichi.runs.open_results import kind
+from tehl_taichi.runs.summary import life
 from tehl_taichi.runs.sweep import case
 from tehl_taichi.scene import resolution, scene
 from tehl_taichi.scene.scales import Scales
@@ -132,6 +134,19 @@ def test_results_of_the_runs_come_into_record_and_tables(tmp_path, monkeypatch):
     assert not found.failed and all(one["converged"] for one in found.rings.values())
     rows = {label: (inner, outer) for label, inner, outer in bearing_table.tables(found)["film"]}
     assert rows["h_c, um"][0] == f"{found.rings['inner']['R_x_m'] * 1e6:.3f}"
+
+
+def test_the_index_that_decides_is_beside_the_passages_that_follow_from_it(dry):
+    """That of the resolved part, if the grid does not resolve the passage; the page says so."""
+    early = {"Fi_max": 0.9, "error": {"Fi_max": 0.02}, "to_x_a": 0.5}
+    summary = {"fatigue": {"surface": "a", "Fi_max": 1.4, "error": {"Fi_max": None}, "resolved": early}}
+    summary |= life.part({"a": summary["fatigue"]}, dataclasses.replace(scene("gear").fatigue, exponent=9.0, limit_cycles=1e6))
+    found = Bearing(dry.folder, {**dry.record, "inner": {**dry.record["inner"], "summary": summary}})
+    rows = {label: inner for table in bearing_table.tables(found).values() for label, inner, _ in table}
+    assert rows["Fi judged"] == "0.900 ± 0.020" and summary["life"]["passages"] == pytest.approx(1e6 * 0.9**-9)
+    assert rows["passages to initiation"].startswith("(2.58 ± ")
+    said, = place_sections.passages(bearing_page._results(found), str)
+    assert "at inner the grid does not resolve" in said
 
 
 def test_errors_are_printed_in_the_unit_of_their_number(dry):

@@ -3,7 +3,9 @@
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.report import verdict
+from tehl_taichi.fatigue import judged_layers
+from tehl_taichi.report import place_sections, verdict
+from tehl_taichi.runs.flank.flank_columns import judged_index
 from tehl_taichi.runs.summary import life, summary_rows
 from tehl_taichi.runs.sweep.summary_columns import error_of, numbers
 from tehl_taichi.values.coded_text import Reason, unknown_of
@@ -78,3 +80,34 @@ def test_of_rough_surfaces_the_worse_percentile_decides_also_below():
     rough["below"]["statistics"] = deep
     found = life.of_searches({"a": rough}, FATIGUE)
     assert (found["Fi"], found["depth_m"]) == (1.4, 7e-6)
+
+
+WIDE = {"length_m": 1e-5, "Fi_max": 0.7, "error": {"Fi_max": 0.01}, "below": {"Fi_max": 1.1, "depth_m": 9e-6,
+                                                                              "error": {"Fi_max": 0.02}}}
+EARLY = {"resolved": {**search(0.9, 0.95), "to_x_a": 0.5}}
+
+
+@pytest.mark.parametrize("searches", [
+    {"a": search(1.1, 1.3, None, **EARLY)}, {"a": search(1.1, 1.3, None, averaged=WIDE, **EARLY)},
+    {"a": search(1.4, 1.3, None), "b": search(1.2, 1.1)}, {"a": search(0.9, 0.8, 0.2), "b": search(0.95, 0.9)},
+    {"a": search(1.1, 1.3, None, **EARLY), "b": search(1.2, 1.1, None, resolved={**search(0.8, 0.97), "to_x_a": 0.5})}],
+    ids=["resolved", "averaged", "known", "within", "other body"])
+def test_they_are_those_of_the_index_that_the_verdict_judges(searches):
+    """Of each kind of verdict, and where a larger index of another point does not decide."""
+    found, summary = life.of_searches(searches, FATIGUE), {"fatigue": searches["a"], "fatigue_by_surface": searches}
+    where, Fi, error = judged_layers.worst_layer(searches)
+    assert (found["Fi"], error) == (Fi, judged_index(summary)[1]) and Fi == judged_index(summary)[0]
+    assert found["passages"] == pytest.approx(2e6 * Fi**-9.0)
+    assert found["error"]["passages"] == pytest.approx(2e6 * ((Fi - error) ** -9.0 - Fi**-9.0))
+    assert found["resolved"] == judged_layers.deciding(searches)[1]
+    assert ("averaged over" in where) == bool(found["length_m"]) == ("averaged over 10 µm" in verdict._life({"life": found})[0])
+
+
+def test_of_a_resolved_part_they_are_an_upper_limit_and_tables_of_places_say_so():
+    whole, part = (life.part({"a": search(1.1, 1.3, bar, **EARLY if bar is None else {})}, FATIGUE) for bar in (0.01, None))
+    assert "can only lower the number" in verdict._life(part)[0] and "only lower" not in verdict._life(whole)[0]
+    assert "while resolved" in summary_rows.life_rows(part)[0][0]
+    said, = place_sections.passages([("A", 1e9, whole), ("C", 1e9, part), ("E", None, None)], str)
+    assert "index that decides at each place; at C the grid" in said
+    assert "resolve" not in place_sections.passages([("A", 1e9, whole)], str)[0]
+    assert place_sections.passages([("A", 1e9, {}), ("E", None, None)], str) == ()
