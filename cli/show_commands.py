@@ -197,7 +197,7 @@ def _state(saved):
 def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank, bearing or cam"),
          out: Path = typer.Option(None, help="folder for the figures (default: beside the store; for the others: "
                                              "inside it)"),
-         quantity: str = typer.Option(None, help="study: column of its table to draw, such as fatigue_Fi_max"),
+         quantity: str = typer.Option(None, help="study: column of its table to draw, such as judged_Fi"),
          format: Format = "png", dpi: Dpi = 160, width: Width = 17.0, force: Force = False,
          at: Optional[float] = typer.Option(None, help="run: position of the (first) feature to draw, in half-widths a "
                                                        "(default: -0.8, 0, 0.8 for curves, 0 for maps)"),

@@ -10,9 +10,9 @@ from typing import Any
 from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
-from tehl_taichi.runs.sweep.summary_columns import error_of
+from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
 
-SHOWN = (("fatigue_Fi_max", "Fi", 1), ("transient_h_min_m", "h_min um", 1e6), ("transient_p_max_Pa", "p_max GPa", 1e-9),
+SHOWN = ((JUDGED, "Fi judged", 1), ("transient_h_min_m", "h_min um", 1e6), ("transient_p_max_Pa", "p_max GPa", 1e-9),
          ("steady_h_c_m", "steady h_c um", 1e6))
 LAST, MOST_ROWS = 8, 60
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from tehl_taichi.fatigue.judged_layers import ABOVE, WITHIN, judged
 from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.run_page import scene_section
@@ -12,12 +13,12 @@ from tehl_taichi.report.verdict import limit_words
 from tehl_taichi.runs.sweep import study_figures
 from tehl_taichi.runs.sweep.study_labels import key_name, label_with_value, name_and_unit
 from tehl_taichi.runs.sweep.study_table import Study, attributes
+from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
 from tehl_taichi.scene.aliases import full_name
 from tehl_taichi.values.digits import with_error
 
 MOST_ROWS = 500
 ROUNDING = 1e-12  # of the largest value: friction in pure rolling
-ERROR, BELOW = "fatigue_error_Fi_max", "fatigue_below_Fi_max"
 
 
 def of(folder):
@@ -53,19 +54,21 @@ def _column(study, name):
 
 
 def _answer(study):
-    Fi, waiting = np.fmax(_column(study, study_figures.INDEX), _column(study, BELOW)), study.counts["waiting"]
+    Fi, waiting = _column(study, JUDGED), study.counts["waiting"]
     known, bad = np.isfinite(Fi), len(study) - waiting - study.counts["converged"]
     doubts = [f"Without a result: {bad} of {len(study)} cases; the list below says why."] * bool(bad)
     doubts += [f"Not run yet: {waiting} of {len(study)} cases."] * bool(waiting)
     if not known.any():
         headline = f"{study.counts['converged']} of {len(study)} cases have a result."
         return Answer("What are the results of the study?", headline, "none", tuple(_ranges(study)), tuple(doubts))
-    above, of_all = int((Fi[known] >= 1).sum()), int(known.sum())
-    headline = f"The index, at the surface or below it, is above 1 in {above} of {of_all} cases with a result."
-    tone = "yes" if above == of_all else "open" if above else "no"
+    states, of_all = [judged(*one) for one in zip(Fi[known], _errors(study)[known])], int(known.sum())
+    above, within = states.count(ABOVE), states.count(WITHIN)
+    doubtful = f"; 1 lies within the error in {within} more" * bool(within)
+    headline = f"The index that decides is above 1 in {above} of {of_all} cases with a result{doubtful}."
+    tone = "yes" if above == of_all else "open" if above + within else "no"
     return Answer("In which cases does a fatigue crack start?", headline, tone,
                   (_extreme(study, Fi, "largest", np.nanargmax), _extreme(study, Fi, "smallest", np.nanargmin)),
-                  (*_limits(study), *doubts, *_errors(study)))
+                  (*_limits(study), *doubts, *_unknown(study)))
 
 
 def _limits(study):
@@ -100,11 +103,14 @@ def _extreme(study, Fi, text, which):
 
 
 def _errors(study):
-    """Sentences: number of cases whose error of the surface index includes 1, and of cases without an error."""
-    Fi, error = _column(study, study_figures.INDEX), _column(study, ERROR)
-    within, unknown = int((np.abs(Fi - 1) <= error).sum()), int((np.isfinite(Fi) & ~np.isfinite(error)).sum())
-    return ([f"1 lies within the error of the index of the surface: {within} of {len(study)} cases."] * bool(within)
-            + [f"The error of the index is not known: {unknown} of {len(study)} cases."] * bool(unknown))
+    """Errors of the index that decides, 0 where unknown: then only its value counts."""
+    return np.nan_to_num(_column(study, error_of(JUDGED)))
+
+
+def _unknown(study):
+    """Sentence: number of cases whose index has no error."""
+    unknown = int((np.isfinite(_column(study, JUDGED)) & ~np.isfinite(_column(study, error_of(JUDGED)))).sum())
+    return [f"The error of the index is not known: {unknown} of {len(study)} cases."] * bool(unknown)
 
 
 def _changes(study, n):

@@ -16,6 +16,7 @@ from tehl_taichi.runs.sweep import study_figures, summary_columns
 from tehl_taichi.runs.sweep.case_records import STATUS
 from tehl_taichi.runs.sweep.plan import unit
 from tehl_taichi.runs.sweep.study_labels import key_name
+from tehl_taichi.runs.sweep.summary_columns import JUDGED
 from tehl_taichi.scene.aliases import full_name
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.values.quantity import kinds
@@ -33,13 +34,13 @@ CONTACT = {"R_m": ("reduced radius R'", "mm"), "u_m_m_s": ("entrainment speed", 
            "Fi_judged": ("Fi judged", "")}
 OF_A_PLACE = ("contact.", "operation.u_", "operation.srr")  # keys of scenes that positions and rings set
 WIDER = "grid."  # begins keys that they may set
-INDEX = (("Fi_p99", "Fi_max"), ("Fi_max_below",))
+INDEX = (("Fi_judged",), ("Fi_p99", "Fi_max"), ("Fi_max_below",))
 # drawn: the first name of each line that has numbers
 OF_POSITIONS = (*INDEX, ("passage_h_min_m", "steady_h_min_m"), ("passage_p_max_Pa", "steady_p_max_Pa"),
                 ("passage_film_max_C", "steady_film_max_C"), ("steady_friction",), ("p_Hertz_Pa",))
-OF_RINGS = (("Fi_max",), ("Fi_max_below",), ("passage_h_min_m", "h_min_m", "film_formula_m"), ("p_Hertz_Pa",),
+OF_RINGS = (("Fi_judged",), ("Fi_max",), ("Fi_max_below",), ("passage_h_min_m", "h_min_m", "film_formula_m"), ("p_Hertz_Pa",),
             ("static_safety",), ("friction_coefficient",), ("lambda",))
-OF_CASES = (("fatigue_Fi_max",), ("fatigue_below_Fi_max",), ("transient_h_min_m", "steady_h_min_m", "steady_h_c_m"),
+OF_CASES = ((JUDGED,), ("fatigue_Fi_max",), ("fatigue_below_Fi_max",), ("transient_h_min_m", "steady_h_min_m", "steady_h_c_m"),
             ("transient_p_max_Pa", "steady_p_max_Pa"), ("transient_film_max_C", "steady_film_max_C"),
             ("steady_friction_coefficient",))
 
@@ -144,6 +145,7 @@ def _of_study(study):
     known = {name: _of_entry(entry) for entry in quantities.ENTRIES
              if entry.column and (name := f"{entry.part}_{entry.key}".replace(".", "_")) in study.values}
     swept = {full_name(key) for key in keys}
+    known |= {JUDGED: PlaceQuantity(*CONTACT["Fi_judged"], 1, ".3f", True)} if JUDGED in study.values else {}
     about, settings = {"swept": ", ".join(keys)}, {key: one for key, one in flat(scene.to_dict()).items() if key not in swept}
     across, x_unit = (key_name(keys[0]), unit(scene, keys[0])) if one else ("", "")
     failed = tuple(place.words for place, status in zip(places, study.status) if status != STATUS["converged"])

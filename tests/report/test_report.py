@@ -190,9 +190,9 @@ def test_a_study_shows_its_results_and_what_failed(pages):
     assert "Fi = 1 is the fatigue limit σ_eF = 400 MPa with κ = 0.3 (findley): example values" in seen.text
     assert "The largest is Fi = 1.05: slide-roll ratio -0.1, feature height 1.5 µm." in seen.text
     assert "Case 5 (slide-roll ratio 0, feature height 1.5 µm): not converged: made up" in seen.text
-    cells = numbers(seen.figures["fatigue_Fi_max-map"]["data"][0])
+    cells = numbers(seen.figures["judged_Fi-map"]["data"][0])
     assert np.isnan(cells).sum() == 1 and np.nanmax(cells) == pytest.approx(1.05)
-    assert len(seen.figures["fatigue_Fi_max-lines"]["data"]) == 3
+    assert len(seen.figures["judged_Fi-lines"]["data"]) == 3
     assert "feature height 0.5 to 1.5 µm: 3 values in place of that below" in seen.text
 
 

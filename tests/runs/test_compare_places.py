@@ -110,14 +110,14 @@ def test_the_figure_has_a_line_for_each_over_the_line_of_action(flanks, monkeypa
     from tehl_taichi.view.figures.figure_style import FigureStyle
 
     found = tehl.compare(*flanks)
-    assert panels(found) == ["Fi_max", "steady_h_min_m", "steady_p_max_Pa", "p_Hertz_Pa"]
+    assert panels(found) == ["Fi_judged", "Fi_max", "steady_h_min_m", "steady_p_max_Pa", "p_Hertz_Pa"]
     figure = drawn(FigureStyle(), found, panels(found))
     first, second = figure.axes[0].containers
     places = Flank.open(flanks[0]).positions
     assert first.lines[0].get_xdata() == pytest.approx([1e3 * at.x_pl for at in places])
     assert second.lines[0].get_ydata()[:2] == pytest.approx([1.5, 0.9])
-    assert [ax.get_ylabel() for ax in figure.axes][1:3] == ["steady p_max (GPa)", "steady h_min (µm)"]
-    assert figure.axes[-1].get_xlabel().startswith("x_pl")
+    assert [ax.get_ylabel() for ax in figure.axes][1:3] == ["steady p_max (GPa)", "Fi at the surface,\nlargest"]
+    assert figure.axes[4].get_xlabel().startswith("x_pl")
 
 
 @pytest.fixture(scope="module")
@@ -139,6 +139,8 @@ def test_studies_over_the_same_keys_are_compared_by_case(studies):
     row = next(row for row in found.rows if row.name == "fatigue_Fi_max")
     assert row.numbers == ((pytest.approx(0.75), 0.04), (pytest.approx(0.9), None)) and row.change == "+20% (error unknown)"
     assert row.quantity.heading == "Fi at the surface, largest"
+    judged = next(row for row in found.rows if row.name == "judged_Fi")
+    assert judged.numbers == row.numbers and judged.quantity.heading == "Fi judged"
     alone = next(row for row in found.rows if row.place.x == 0.0)
     assert alone.texts[0] == "-" and alone.change == ""
 

@@ -8,16 +8,16 @@ import numpy as np
 from tehl_taichi.errors import StoreError
 from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
 from tehl_taichi.runs.sweep.study_labels import column_name, key_name, of_column, of_key
-from tehl_taichi.runs.sweep.summary_columns import error_of
+from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
 from tehl_taichi.values.checks import known_names, nearest
 from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
 from tehl_taichi.view.figures.map_panels import bar
 
 # drawn by default: the first of each line that the study has
-USUAL = (("fatigue_Fi_max",), ("transient_h_min_m", "steady_h_c_m"), ("transient_p_max_Pa", "steady_p_max_Pa"),
+USUAL = ((JUDGED,), ("transient_h_min_m", "steady_h_c_m"), ("transient_p_max_Pa", "steady_p_max_Pa"),
          ("transient_friction_coefficient_mean", "steady_friction_coefficient"), ("transient_film_max_C", "steady_film_max_C"))
-INDEX, FILM = "fatigue_Fi_max", "transient_h_min_m"
+FILM = "transient_h_min_m"
 TOLD = 120  # cells of a map with their values in them
 TICKS = 12
 HIGH = 1.7  # rows of lines: height of a figure with one panel
@@ -45,7 +45,7 @@ def _figures(study, chosen):
                 yield f"{name}_map", heat_map, name
         else:
             yield f"{name}_points", points, name
-    if INDEX in chosen and FILM in study.values:
+    if JUDGED in chosen and FILM in study.values:
         yield "Fi_over_h_min", index_over_film
 
 
@@ -152,7 +152,7 @@ def points(page, study, name):
 def index_over_film(page, study):
     """Figure of Fi of every case over the minimum film of its passage, both with errors, coloured by the first key."""
     film, film_error, film_label = with_errors(study, FILM)
-    Fi, Fi_error, _ = with_errors(study, INDEX)
+    Fi, Fi_error, _ = with_errors(study, JUDGED)
     key = study.plan.keys[0]
     colour, colour_label, ticks = axis_values(study, key, per_case=True)
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
@@ -164,7 +164,7 @@ def index_over_film(page, study):
         places = dict(zip(colour.tolist(), ticks))
         scale.set_ticks(list(places), labels=list(places.values()))
     ax.axhline(1.0, color=palette.GREY, ls="--")
-    ax.set(xlabel=film_label, ylabel="fatigue index Fi")
+    ax.set(xlabel=film_label, ylabel="Fi judged")
     ax.grid()
     page.title(figure, f"{study.plan.scene.name}: Fi over the smallest film, {_count(study)}{_unknown(Fi, Fi_error)}")
     return figure
@@ -181,7 +181,7 @@ def _unknown(values, errors):
 
 
 def _count(study):
-    return f"{int(np.isfinite(study.values[INDEX]).sum())} of {len(study)} cases"
+    return f"{int(np.isfinite(study.values[JUDGED]).sum())} of {len(study)} cases"
 
 
 def _dress(ax, x_label, x, ticks, in_numbers):

@@ -197,7 +197,7 @@ class Study(LockedFolder):
         self.status[n] = records.STATUS[record["status"]]
         for column in self.values.values():
             column[n] = np.nan
-        for name, value in summary_columns.numbers(record.get("summary") or {}).items():
+        for name, value in summary_columns.of_case(record.get("summary") or {}).items():
             self.values.setdefault(name, np.full(len(self), np.nan))[n] = value
 
     def flush(self):

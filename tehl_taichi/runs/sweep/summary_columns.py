@@ -3,6 +3,9 @@
 import math
 import re
 
+from tehl_taichi.fatigue.judged_layers import judged_point
+from tehl_taichi.fatigue.judged_surfaces import by_surface
+from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.values import summary_units
 
 # what a case has of its own, or what is no number of its result
@@ -12,6 +15,21 @@ NAME = re.compile(r"\w[\w.+-]*")  # of an array and its folder, a column and a l
 PART = re.compile(r"(fatigue(_by_surface_[ab])?(_resolved|_averaged)?(_below|_contact_alone)?(_statistics|_von_mises)?"
                   r"|contact_alone(_by_surface_[ab])?(_von_mises)?|von_mises|run_in(_by_surface_[ab])?"
                   r"|[^_]+)_")  # of a summary, inside others
+JUDGED = "judged_Fi"  # the index that decides the verdict
+
+
+def of_case(summary):
+    """Numbers of a summary (see :func:`numbers`), and those of the point that decides its verdict."""
+    return numbers({**summary, **_judged(summary)})
+
+
+def _judged(summary):
+    """{"judged": index that decides, with its error and depth}; {} without an index."""
+    searches = by_surface(summary)
+    if not all(searches.values()) or not searches or any(map(why_none, searches.values())):
+        return {}
+    point = judged_point(searches)
+    return {"judged": {"Fi": point.Fi, "depth_m": point.depth, "error": {"Fi": point.error}}}
 
 
 def numbers(summary, above=""):

@@ -17,8 +17,9 @@ from commands import process as tehl
 from fake_cases import cubed, formula, greedy, square
 
 from tehl_taichi.errors import RuntimeUnavailable, StoreError
+from tehl_taichi.report import study_page
 from tehl_taichi.runs.sweep import case_records as records
-from tehl_taichi.runs.sweep import pool, study_labels, sweeping
+from tehl_taichi.runs.sweep import pool, study_figures, study_labels, sweeping
 from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.runs.sweep.study_table import Study
 from tehl_taichi.scene import SceneError, scene
@@ -187,14 +188,43 @@ def test_many_small_cases_on_a_cluster_cost_little(client, tmp_path):
 @pytest.mark.rendered
 def test_pictures_of_a_quantity_are_no_empty_pages(study, tmp_path):
     pytest.importorskip("matplotlib")
-    paths = study.plot(tmp_path, "fatigue_Fi_max", dpi=40)
+    paths = study.plot(tmp_path, "judged_Fi", dpi=40)
     assert len(paths) == 3 and min(path.stat().st_size for path in paths) > 3000
+
+
+def test_the_index_of_a_study_is_that_of_the_verdict_of_each_case(tmp_path, monkeypatch):
+    """Of the resolved part, of averaged stresses, of the percentile of rough surfaces, of the other body: in table, page and on
+    the screen, though the whole passage has more everywhere.
+    """
+    def part(Fi, error, **more):
+        return {"Fi_max": Fi, "error": {"Fi_max": error}, "surface_angle_deg": 30.0, **more}
+
+    late = part(1.4, None, surface="a")
+    cases = [{"a": {**late, "resolved": part(0.9, 0.02, to_x_a=0.5)}},
+             {"a": {**late, "averaged": part(1.2, 0.1, length_m=1e-5)}},
+             {"a": {**late, "rough": True, "statistics": {"p99": 1.05, "error": {"p99": 0.1}}}},
+             {"a": {**late, "Fi_max": 0.7}, "b": part(0.8, 0.01)}]
+
+    def work(job, *_):
+        searches = cases[round(10 * job.scene.operation.srr) - 1]
+        found = formula(job)
+        return {**found, "summary": {**found["summary"], "fatigue": searches["a"], "fatigue_by_surface": searches}}
+
+    study = sweeping.run(plan(GEAR, {"srr": [0.1, 0.2, 0.3, 0.4]}), tmp_path / "s.zarr", workers=1, work=work)
+    assert study.values["judged_Fi"].tolist() == [0.9, 1.2, 1.05, 0.8]
+    assert study.values["judged_error_Fi"].tolist() == [0.02, 0.1, 0.1, 0.01]
+    answer = study_page._answer(study)
+    assert answer.headline == ("The index that decides is above 1 in 1 of 4 cases with a result; 1 lies within the error in 1 "
+                               "more.")
+    assert "largest is Fi = 1.2:" in answer.sentences[0] and "smallest is Fi = 0.8:" in answer.sentences[1]
+    monkeypatch.setenv("COLUMNS", "200")
+    assert "0.900 ± 0.020" in here("show", study.path).stdout and study_figures.usual(study)[0] == "judged_Fi"
 
 
 def test_pictures_of_a_study(study, tmp_path):
     pytest.importorskip("matplotlib")
     names = {path.name for path in study.plot(tmp_path, dpi=40)}
-    assert names == {f"{name}_{kind}.png" for name in ("fatigue_Fi_max", "transient_h_min_m", "transient_p_max_Pa")
+    assert names == {f"{name}_{kind}.png" for name in ("judged_Fi", "transient_h_min_m", "transient_p_max_Pa")
                      for kind in ("lines", "map")} | {"Fi_over_h_min.png"}
     with pytest.raises(StoreError, match="did you mean 'steady_h_c_m'.*; known: wall_s"):
         study.plot(tmp_path, "steady_h_m")
