@@ -15,6 +15,7 @@ from tehl_taichi.values.coded_warning import with_data
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to carry more than about 0.12 of the pressure, traction fluids included
 MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
+FINER = "touch", "changes", "place", "peak", "value", "rival"  # reasons of unknown errors that a finer grid may remove
 NO_VALUE = Option("oil without a shear limit has no finite value here; use --thermal or a limiting law (rheology.law)",
                   "oil without a shear limit has no finite value here; temperatures or a limiting law would give one")
 
@@ -108,8 +109,10 @@ def _because(store, i, remedy):
     return f" and grows like 1/sqrt(cell); {remedy}" if endless else f"; a finer grid may resolve it: {remedy}"
 
 
-def finer_exit(scene, why):
-    """Grid to try if the error of a passage is unknown for this Reason; "" if that is not its exit or no grid helps."""
+def finer_grid(scene, why):
+    """Grid to try if an error is unknown for this Reason, of an exit with cells along x only; "" if no grid helps."""
+    if code_of(why) in FINER:
+        return refinement.finer_grid_option(scene)
     helps = code_of(why) == "exit" and scene.transient and not _endless(scene)
     return refinement.finer_along_option(scene) if helps else ""
 

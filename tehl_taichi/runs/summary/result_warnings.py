@@ -77,17 +77,24 @@ def of_single_peaks(store, summary):
 def unknown_errors(store, summary):
     """Warnings about numbers with unknown error, with the reason; one sentence for all with the same reason."""
     for why, names in _unknown(summary).items():
-        grid = film_warnings.finer_exit(store.scene, why)
-        window = zoom_option(store.scene, functools.partial(_zoomed_work, store)) if grid else ""
-        more = (f"; try a grid that is finer along x: {grid}" if grid else "") + (f", or {window}" if window else "")
+        grid = film_warnings.finer_grid(store.scene, why)
+        window = _window(store) if grid and any(map(_passes, names)) else ""
+        finer = "a grid that is finer along x" if why.code == "exit" else "a finer grid"
+        more = (f"; try {finer}: {grid}" if grid else "") + (f", or {window}" if window else "")
         yield with_data(f"the error of {few_names(names)} is not known: {why}{more}", grid, window, numbers=names,
                         reason=str(why), reason_code=why.code)
 
 
-def _zoomed_work(store, factor):
+def _passes(name):
+    """Whether a number is of the passage, which a window follows."""
+    return not name.startswith("steady ") and "smooth contact" not in name
+
+
+def _window(store):
+    """Option of a fine window, "" if the run cannot have one."""
     from tehl_taichi.runs import zoom_need
 
-    return zoom_need.work(store, factor)
+    return zoom_option(store.scene, functools.partial(zoom_need.work, store))
 
 
 def few_names(names):
@@ -200,21 +207,28 @@ def place_text(found, um="um"):
 
 
 def worst_below(store, summary):
-    """Warning that the worst point of a body is below its surface."""
-    fatigue = searched(summary.get("fatigue", {}))
-    deep = fatigue.get("below")
-    if not deep or deep["Fi_max"] <= fatigue["Fi_max"]:
+    """Warning that the point that decides is below its surface, with the numbers of the verdict."""
+    searches = by_surface(summary)
+    if not searches or not (deep := judged_point(searches)).depth:
         return []
+    parts, early = deciding(searches)
+    top, *_ = judged_points({deep.surface: parts[deep.surface]})
+    whole = searched(searches[deep.surface])
     alone_of = "from the pressure alone " * bool(why_none(summary["fatigue"]))
-    body = f" of body {summary['fatigue']['surface']}" if others(summary) else ""
-    text = (f"{alone_of}the critical point lies below the surface{body}: Fi {deep['Fi_max']:.2f} at "
-            f"{micrometres(deep['depth_m'])} um, {fatigue['Fi_max']:.2f} at the surface")
-    alone = fatigue.get("contact_alone")
-    if alone and alone["Fi_max"] > fatigue["Fi_max"]:
-        text += f"; the smooth contact has {alone['Fi_max']:.2f} at {micrometres(alone['depth_m'])} um"
-    if near_the_surface(deep, fatigue):
-        text += "; this grid resolves nothing closer to the surface (half a cell): use a finer grid"
-    return [with_data(text, Fi_max=fatigue["Fi_max"], below_Fi_max=deep["Fi_max"], depth_m=deep["depth_m"])]
+    body = (f" of body {deep.surface}" if others(summary) else "") + ", while the grid resolves the pressure" * early
+    text = (f"{alone_of}the critical point lies below the surface{body}: Fi = {quantity(deep.part, deep.key)} at "
+            f"{_um(deep.depth)}{over(deep.length, 'um')}, {quantity(top.part, top.key)} at the surface{over(top.length, 'um')}")
+    alone = whole.get("contact_alone")
+    if alone and alone["Fi_max"] > top.Fi:
+        text += f"; the smooth contact has {quantity(alone, 'Fi_max')} at {_um(alone['depth_m'])}"
+    grid = finer_grid_option(store.scene) if near_the_surface(deep.part, whole) else ""
+    if grid:
+        text += f"; this grid resolves nothing closer to the surface (half a cell); use a finer grid: {grid}"
+    return [with_data(text, grid, Fi_max=top.Fi, below_Fi_max=deep.Fi, depth_m=deep.depth, length_m=deep.length)]
+
+
+def _um(length):
+    return f"{micrometres(length)} um"
 
 
 # functions of (store, summary) that give their sentences, with the code of these

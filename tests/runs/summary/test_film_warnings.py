@@ -5,12 +5,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tehl_taichi.runs import zoom_need
 from tehl_taichi.runs.summary import film_warnings
 from tehl_taichi.runs.summary import result_warnings as judge_of_results
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.surface.shapes.map import EXAMPLE
-from tehl_taichi.values.coded_text import Reason
+from tehl_taichi.values.coded_text import Reason, without_options
 
 
 class Made:
@@ -127,10 +128,10 @@ def test_a_peak_that_three_grids_know_is_not_warned_of():
 
 def test_an_exit_whose_error_is_not_known_tells_which_grid_to_try():
     why = Reason("a pressure peak of 89% of the largest is only a few cells wide", "exit")
-    assert film_warnings.finer_exit(gear(), why) == "--grid 512x64 (4 times the work)"
+    assert film_warnings.finer_grid(gear(), why) == "--grid 512x64 (4 times the work)"
     for left, other in ((gear(**{"rheology.law": "newtonian"}), why), (gear(), "exit not resolved: of an older store"),
                         (gear(feature=[]), why)):
-        assert film_warnings.finer_exit(left, other) == ""
+        assert film_warnings.finer_grid(left, other) == ""
 
 
 @pytest.mark.parametrize("at,told", [(40, True), (90, False)])
@@ -199,3 +200,23 @@ def test_many_numbers_without_an_error_are_one_short_sentence():
     assert judge_of_results.few_names(keys[:6]) == "n0, n1, n2, n3, n4, n5"
     line, = judge_of_results.unknown_errors(store, {"contact_alone": {"unknown": {"surface_Fi_max": reason}}})
     assert line.startswith("the error of Fi_max at the surface of the smooth contact is not known")
+
+
+@pytest.mark.parametrize("code", ["touch", "changes", "place", "peak", "value", "rival"])
+def test_a_reason_that_a_finer_grid_removes_names_it_and_a_window_for_numbers_of_the_passage(code, monkeypatch):
+    monkeypatch.setattr(zoom_need, "work", lambda store, factor: 1.3 * factor)
+    reason = Reason("made up", code)
+    steady, passage, smooth = ({"steady": {"unknown": {"h_c_m": reason}}}, {"transient": {"unknown": {"h_min_m": reason}}},
+                               {"contact_alone": {"unknown": {"Fi_max": reason}}})
+    grid = "--grid 512x128 (8 times the work)"
+    for summary, more in ((steady, ""), (smooth, ""), ({**steady, **passage}, ", or --zoom 4 (6 times the work)")):
+        said, = judge_of_results.unknown_errors(SimpleNamespace(scene=gear()), summary)
+        assert said.endswith(f" is not known: made up; try a finer grid: {grid}{more}")
+        assert "--" not in without_options(said)
+
+
+@pytest.mark.parametrize("code", ["shallow", "coarse", "other", "unsettled", ""])
+def test_a_reason_that_no_grid_removes_names_none(code):
+    summary = {"transient": {"unknown": {"h_min_m": Reason("made up", code)}}}
+    assert [str(one) for one in judge_of_results.unknown_errors(SimpleNamespace(scene=gear()), summary)] == [
+        "the error of passage h_min is not known: made up"]
