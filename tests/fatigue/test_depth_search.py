@@ -8,7 +8,7 @@ from rolling import Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import RuntimeUnavailable
-from tehl_taichi.fatigue import assessment, candidate_rows, depth_profile, depth_search
+from tehl_taichi.fatigue import assessment, candidate_rows, depth_profile, depth_search, judged_layers
 from tehl_taichi.fatigue.sought import Box
 from tehl_taichi.fatigue.stress import half_space
 from tehl_taichi.fatigue.stress import workers as stress_workers
@@ -18,6 +18,7 @@ from tehl_taichi.fatigue.stress.row_stress import RowStress
 from tehl_taichi.fatigue.stress.thermal_stress import ThermalStress
 from tehl_taichi.runs.summary import result_warnings, summary_rows
 from tehl_taichi.scene import SceneError
+from tehl_taichi.values.coded_text import without_options
 from tehl_taichi.view.figures.figure_style import FigureStyle
 from tehl_taichi.view.figures.run_figures import write_fatigue
 
@@ -302,14 +303,42 @@ def test_depths_beyond_the_rungs_are_interpolated_well(taichi_cpu):
 
 def test_a_worst_point_below_is_said():
     fatigue_ = {"Fi_max": 1.008, "below": {"Fi_max": 1.39, "depth_m": 24.8e-6},
-                "contact_alone": {"Fi_max": 1.195, "depth_m": 183e-6}}
-    said, = result_warnings.worst_below(None, {"fatigue": fatigue_})
-    assert "Fi 1.39 at 25 um, 1.01 at the surface" in said and "1.20 at 183 um" in said
+                "contact_alone": {"Fi_max": 1.2, "depth_m": 183e-6, "error": {"Fi_max": 0.01}}}
+    store = SimpleNamespace(scene=tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16}))
+    said, = result_warnings.worst_below(store, {"fatigue": fatigue_})
+    assert "Fi = 1.39 (error unknown) at 25 um, 1.01 (error unknown) at the surface" in said
+    assert "1.200 ± 0.010 at 183 um" in said
     assert result_warnings.worst_below in result_warnings.CHECKS and "finer" not in said
     first = {**fatigue_["below"], "searched_m": [24.8e-6, 1e-3]}
-    assert "use a finer grid" in result_warnings.worst_below(None, {"fatigue": {**fatigue_, "below": first}})[0]
-    assert result_warnings.worst_below(None, {"fatigue": {**fatigue_, "Fi_max": 1.5}}) == []
-    assert result_warnings.worst_below(None, {"fatigue": {"Fi_max": 1.0}}) == result_warnings.worst_below(None, {}) == []
+    grid, = result_warnings.worst_below(store, {"fatigue": {**fatigue_, "below": first}})
+    assert grid.endswith("use a finer grid: --grid 128x32 (8 times the work)")
+    assert without_options(grid).endswith("use a finer grid: a grid of 128 × 32 cells (8 times the work)")
+    assert result_warnings.worst_below(store, {"fatigue": {**fatigue_, "Fi_max": 1.5}}) == []
+    assert result_warnings.worst_below(store, {"fatigue": {"Fi_max": 1.0}}) == result_warnings.worst_below(store, {}) == []
+
+
+def test_a_worst_point_below_is_said_with_the_numbers_of_the_verdict():
+    """Of averaged stresses, of the resolved part or of the other body, as the answer has them."""
+    def part(Fi, error, **more):
+        return {"Fi_max": Fi, "error": {"Fi_max": error}, "surface_angle_deg": 30.0, **more}
+
+    whole = part(1.1, None, below=part(1.67, None, depth_m=2.3e-6))
+    wide = {"averaged": part(1.0, 0.04, length_m=5e-6, below=part(1.25, 0.06, depth_m=5.1e-6))}
+    early = {"resolved": part(0.8, 0.02, to_x_a=0.5, below=part(0.94, 0.03, depth_m=2e-5))}
+    sound = part(0.7, 0.01)
+    for searches, said in (
+            ({"a": {**whole, **wide}}, "surface: Fi = 1.250 ± 0.060 at 5.1 um (stresses averaged over 5 um), 1.000 ± 0.040 at "
+                                       "the surface (stresses averaged over 5 um)"),
+            ({"a": {**whole, **early}}, "surface, while the grid resolves the pressure: Fi = 0.940 ± 0.030 at 20 um, "
+                                        "0.800 ± 0.020 at the surface"),
+            ({"a": part(0.9, 0.01), "b": {**sound, "below": part(0.95, 0.02, depth_m=2e-5)}},
+             "surface of body b: Fi = 0.950 ± 0.020 at 20 um, 0.700 ± 0.010 at the surface"),
+            ({"a": {**sound, "below": part(0.65, 0.01, depth_m=2e-5), **wide}}, None)):
+        summary = {"fatigue": searches["a"], "fatigue_by_surface": searches}
+        assert [str(one) for one in result_warnings.worst_below(None, summary)] == \
+            [f"the critical point lies below the {said}"] * bool(said)
+        point = judged_layers.judged_point(searches)
+        assert bool(point.depth) == bool(said) and f"{point.Fi:.2f}" in (said or f"{point.Fi:.2f}")
 
 
 def test_the_table_names_the_worst_point_s_own_tension(found):

@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 
+from tehl_taichi.fatigue.judged_layers import deciding, judged_point, judged_points, over
 from tehl_taichi.fatigue.judged_surfaces import by_surface, others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.laws import conduction
@@ -12,6 +13,7 @@ from tehl_taichi.laws.law import beyond
 from tehl_taichi.march.accuracy.coarse_runs import near_the_surface
 from tehl_taichi.march.quantities import short_name
 from tehl_taichi.runs.summary import domain_warnings, film_warnings, rim_warnings
+from tehl_taichi.runs.summary.summary_row import quantity
 from tehl_taichi.scene import yield_stress
 from tehl_taichi.scene.refinement import finer_grid_option, zoom_option
 from tehl_taichi.values.coded_text import Reason, reasons_of
