@@ -8,7 +8,7 @@ from tehl_taichi.report.plots import Figure, axis, colour, line, marks
 from tehl_taichi.scene.feature_wording import feature_word
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.strength.strength import Strength
-from tehl_taichi.view.figures.index_text import largest
+from tehl_taichi.view.figures.index_text import answer_points, at_points, judged_text
 from tehl_taichi.view.figures.moments import WINDOW, Moments
 from tehl_taichi.view.figures.palette import GREY
 from tehl_taichi.view.zoom_window import ZoomWindow
@@ -31,6 +31,8 @@ def figures(store, search):
     caption = (f"From the load to the verdict, body {body}: largest pressure of the passage{resolved}, stress under the "
                f"{feature_word(search.scene)} at each depth, limit and residual stress there, and stress over limit.")
     caption += " The residual stress with that of run-in is that under the critical point." * bool(left)
+    caption += " Lines are of stresses at points; the marks of the index are those of the answer." * (not at_points(
+        search.result.numbers))
     return [Figure(f"{search.on}chain", caption, traces, _layout(), 640)]
 
 
@@ -110,13 +112,13 @@ def _of_body(search):
 
 
 def _verdict(search):
-    """Lines of the index over depth, its largest values and the limit."""
+    """Lines of the index over depth, the values that the answer uses, and the limit."""
     result, z = search.result, search.result.row_depths * 1e6
     f, alone = result.numbers, result.index("findley_stress_contact_alone")
-    deep = f["below"]
+    top, *deep = answer_points(f)
     return [line(result.index("findley_stress_under_row").max(axis=1), z, f"with the {feature_word(search.scene)}", colour(0),
                  in_legend=False),
             *([] if alone is None else [line(alone, z, "smooth contact", GREY, dash="dash", in_legend=False)]),
             line([1.0, 1.0], [z[0], z[-1]], "Fi = 1", colour(2)),
-            marks([f["Fi_max"]], [0.0], f"at the surface: {largest(f)}", colour(1), symbol="circle"),
-            marks([deep["Fi_max"]], [deep["depth_m"] * 1e6], f"below: {largest(deep)}", colour(0))]
+            marks([top.Fi], [0.0], f"at the surface: {judged_text(top)}", colour(1), symbol="circle"),
+            *(marks([one.Fi], [one.depth * 1e6], f"below: {judged_text(one)}", colour(0)) for one in deep)]

@@ -10,7 +10,7 @@ from tehl_taichi.report.plots import colour, field_map, level, line, marks, stac
 from tehl_taichi.scene.feature_wording import feature_word, position_title
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures import distribution_figure
-from tehl_taichi.view.figures.index_text import index_text, largest
+from tehl_taichi.view.figures.index_text import answer_points, at_points, critical_word, index_text, judged_text, largest
 from tehl_taichi.view.figures.limit_line import crosses_limit, line_words
 from tehl_taichi.view.figures.map_panels import mirrored
 from tehl_taichi.view.figures.palette import GREY, INDEX, MARK
@@ -73,7 +73,8 @@ def _map(search, which, where, Fi, found, more=""):
 def _marked(search, Fi, found):
     """Mark of the worst point, or of the largest value of a layer without it."""
     if found:
-        return marks([found["x_m"] * 1e6], [found["y_m"] * 1e6], f"critical point, Fi = {largest(found)}", MARK)
+        return marks([found["x_m"] * 1e6], [found["y_m"] * 1e6],
+                     f"{critical_word(search.result.numbers)}, Fi = {largest(found)}", MARK)
     i, j = np.unravel_index(int(np.argmax(Fi)), Fi.shape)
     x, y = search.result.feature_frame_x * 1e6, search.result.feature_frame_y * 1e6
     return marks([x[i]], [y[j]], f"largest at this depth, Fi = {index_text(Fi[i, j])}", MARK)
@@ -137,19 +138,21 @@ def depth(search):
     x, z = search.result.feature_frame_x * 1e6, search.result.row_depths * 1e6
     even = np.linspace(0, z[-1], EVEN)
     section = np.stack([np.interp(even, z, column) for column in Fi.T])
-    worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"critical point, Fi = {largest(deep)}", MARK)
+    worst = marks([deep["x_m"] * 1e6], [deep["depth_m"] * 1e6], f"{critical_word(f)}, Fi = {largest(deep)}", MARK)
     caption = (f"Index Fi in the section y = {deep['y_m'] * 1e6:.0f} µm under the {feature_word(search.scene)}"
                f"{_briefly(search)}{line_words(False, crosses_limit(section))}.")
     figure = field_map(f"{search.on}section", caption, x, even, section, INDEX, "Fi", search.along,
                        "below the surface (µm)", [*_limit(x, even, section), worst], true=False, height=440)
     figure.layout["yaxis"]["autorange"] = "reversed"
-    return [figure, _over_depth(search, f, deep, z, Fi)]
+    return [figure, _over_depth(search, f, z, Fi)]
 
 
-def _over_depth(search, f, deep, z, Fi):
-    traces = [line(Fi.max(axis=1), z, f"under the {feature_word(search.scene)}", colour(0)),
-              marks([deep["Fi_max"]], [deep["depth_m"] * 1e6], "largest below", colour(0)),
-              marks([f["Fi_max"]], [0.0], "surface", colour(1), symbol="circle")]
+def _over_depth(search, f, z, Fi):
+    top, *deep = answer_points(f)
+    pointwise = "" if at_points(f) else ", stresses at points"
+    traces = [line(Fi.max(axis=1), z, f"under the {feature_word(search.scene)}{pointwise}", colour(0)),
+              *(marks([one.Fi], [one.depth * 1e6], f"below: {judged_text(one)}", colour(0)) for one in deep),
+              marks([top.Fi], [0.0], f"surface: {judged_text(top)}", colour(1), symbol="circle")]
     alone = search.result.index("findley_stress_contact_alone")
     if alone is not None:
         traces.append(line(alone, z, "smooth contact", GREY, dash="dash"))

@@ -24,7 +24,6 @@ from tehl_taichi.store.reader import Reader
 from tehl_taichi.values.coded_text import without_options
 
 DARK = " Points that have not passed the contact by then are dark on the maps: they are not loaded yet."
-OF = (("", ""), (", resolved part", "The answer uses this part: "), (", whole passage", ""))  # of one search; of two
 NO_MAPS = " The store was written by an older version and has no maps of this part; `tehl fatigue` makes them."
 
 
@@ -69,14 +68,13 @@ def _fatigue(store, result):
     if "fatigue" not in store.summary:
         return ()
     found = searches(store, result)
-    return tuple(section for search, of in zip(found, OF[len(found) - 1 :])
-                 for section in _of_search(store, search, *of, search is found[0]))
+    return tuple(section for search in found for section in _of_search(store, search, search is found[0]))
 
 
-def _of_search(store, search, of, lead, front):
-    """Three sections of a search; of: text in their headings; lead: start of the text about its moments, if there are two
-    searches; front: it decides the verdict.
-    """
+def _of_search(store, search, front):
+    """Three sections of a search; front: it decides the verdict."""
+    of = (", resolved part" if search.on else ", whole passage") * bool(search.short)
+    lead = f"The answer uses this {'part' if search.on else 'search'}: " * front
     shown = figure_block(*fatigue_plots.distribution(search), *fatigue_plots.index(search), *fatigue_plots.depth(search))
     behind = NO_MAPS if shown is None else DARK if search.on else ""
     words, numbers = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short), search.result.numbers

@@ -2,6 +2,9 @@
 
 import json
 
+from tehl_taichi.fatigue import material_length
+from tehl_taichi.fatigue.judged_layers import deciding, over
+from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.march import quantities
 from tehl_taichi.report.document import facts, sentences, table
 from tehl_taichi.report.number_text import FEW, index, roughly, share, text_parts, value_text
@@ -21,17 +24,20 @@ def errors(summary):
     """Tables of the numbers with an error or a reason why it is unknown, followed by the long reasons, once each."""
     head: tuple = ("what", "value", "error", "relative")
     reasons: list[str] = []
-    tables = [table(head, [row for found in _parts_in_order(summary.get(part, {}))
+    tables = [table(head, [row for found in _parts_in_order(summary, part)
                            for row in _with_below(reasons, *found)], when)
               for part, when in PARTS]
     return [*tables, sentences([f"{_mark(n)} {why}" for n, why in enumerate(reasons)], "Why an error is unknown")]
 
 
-def _parts_in_order(values):
-    """[(numbers, text after their names)]; the resolved part, which decides the verdict, is first."""
-    if "resolved" not in values:
-        return [(values, "")]
-    return [(values["resolved"], f", {resolved_words(values['resolved'])}"), (values, ", whole passage")]
+def _parts_in_order(summary, part):
+    """[(numbers, text after their names)]; the resolved part is first if it decides the verdict."""
+    values = summary.get(part, {})
+    found = [(values, ", whole passage" * ("resolved" in values))]
+    found += [(wide, over(wide["length_m"])) for wide in [values.get("averaged")] if wide]
+    if early := values.get("resolved"):
+        found.insert(0 if deciding(by_surface(summary))[1] else len(found), (early, f", {resolved_words(early)}"))
+    return found
 
 
 def _with_below(reasons, found, more):
@@ -88,6 +94,8 @@ POINT = (("index Fi", "Fi_max", "1"), ("stress of the criterion", "findley_stres
 def worst_points(fatigue, scene):
     """Table of the worst points at and below the surface."""
     points = [("surface", {"depth_m": 0.0, **fatigue}), *([("below it", fatigue["below"])] if "below" in fatigue else [])]
+    points += [(f"{'below it' if 'depth_m' in part else 'surface'}{over(length)}", {"depth_m": 0.0, **part})
+               for part, length in material_length.leading(fatigue) if length]
     rows = [(text.format(feature_word(scene)), *(_of_point(point, key, unit) for _, point in points))
             for text, key, unit in POINT]
     return table(("critical point", *(where for where, _ in points)), rows + _in_file(scene, [point for _, point in points]))

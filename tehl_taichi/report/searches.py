@@ -1,8 +1,9 @@
-"""Fatigue searches shown on a page: of the resolved part of the passage, which decides, and of the whole."""
+"""Fatigue searches shown on a page: of the resolved part of the passage and of the whole, the one that decides first."""
 
 from dataclasses import dataclass
 from functools import cached_property
 
+from tehl_taichi.fatigue.judged_layers import deciding
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.fatigue.search_result import SearchResult
@@ -37,13 +38,14 @@ class Search:
 
 
 def searches(store, result=None):
-    """[:class:`Search`] of the whole passage; if the grid does not resolve every pressure, that of the resolved part before it.
-    result: of the search, by default that of the store.
+    """[:class:`Search`] of the whole passage and, if the grid does not resolve every pressure, of the resolved part; that which
+    decides is first. result: of the search, by default that of the store.
     """
     scene, result = store.scene, result or SearchResult.from_arrays(by_surface(store.summary), store.map)
     body = f", body {result.numbers['surface']}, the worse one" if result.other else ""
     over = when(scene) + body + ", pressure alone" * bool(why_none(result.summary))
     if not (part := result.part):
         return [Search(scene, result, over)]
-    return [Search(scene, part, resolved_words(part.summary, position_word(scene)), "resolved-", PART),
+    both = [Search(scene, part, resolved_words(part.summary, position_word(scene)), "resolved-", PART),
             Search(scene, result, f"{over}, later pressures not resolved by the grid", short=over)]
+    return both if deciding(result.summaries)[1] else both[::-1]

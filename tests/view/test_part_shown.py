@@ -4,7 +4,7 @@ import made_results
 import numpy as np
 import pytest
 from made_figures import searched, title, titles
-from read_pages import numbers, page
+from read_pages import numbers, page, values
 
 from tehl_taichi.fatigue import search_result
 from tehl_taichi.view.figures import fatigue_figures, search_data
@@ -71,3 +71,67 @@ def test_a_store_without_maps_of_the_part_says_so(tmp_path):
     seen = page(made_results.run(tmp_path / "a.zarr", search=SEARCH, found=maps(False)), tmp_path)
     assert "has no maps of this part" in seen.text and "resolved-index-surface" not in seen.places
     assert "Fatigue, resolved part" in seen.headings
+
+
+KNOWN = {"a:averaged_Fi_max": 0.05, "a:below_averaged_Fi_max": 0.04}
+
+
+def averaged(**more):
+    """A search whose averaged stresses decide: no pointwise error is known, while the whole passage has more."""
+    def part(found, Fi, **place):
+        return {**found, "Fi_max": Fi, "findley_stress_max_Pa": Fi * 4e8, "error": {"Fi_max": 0.05}, **place}
+
+    whole = made_results.fatigue(1.6, 1.7)
+    point = {key: whole[key] for key in ("x_m", "y_m", "surface_angle_deg", "tau_amp_Pa", "sigma_n_max_Pa", "sigma1_worst_Pa")}
+    return {**whole, "averaged": part(point, 1.1, length_m=1e-5, below=part(point, 1.25, depth_m=9e-6)), **more}
+
+
+def lines_of(figure):
+    return {one.get_label(): one for one in figure.axes[1].lines}
+
+
+def test_a_figure_over_depth_marks_the_index_of_the_answer_and_says_that_its_line_is_of_points():
+    pytest.importorskip("matplotlib")
+    found = search_data.DrawnSearch.of(made_results.THERMAL, made_results.result(averaged(), maps(False)))
+    shown = lines_of(fatigue_figures.all_figures(FigureStyle(dpi=40), found)["fatigue_depth"]())
+    for said, Fi, depth in (("judged, Fi = 1.250 (stresses averaged over 10 µm) at 9 µm", 1.25, 9.0),
+                            ("surface, Fi = 1.100 (stresses averaged over 10 µm)", 1.1, 0.0)):
+        assert (shown[said].get_xdata(), shown[said].get_ydata()) == (pytest.approx([Fi]), pytest.approx([depth]))
+    assert "under the feature, stresses at points" in shown
+    rough = {**made_results.fatigue(1.6, 1.7), "rough": True, "statistics": {"p99": 1.2, "error": {"p99": 0.1}}}
+    rough["below"] = {**rough["below"], "statistics": {"p99": 1.3, "depth_m": 5e-6, "error": {"p99": 0.1}}}
+    found = search_data.DrawnSearch.of(made_results.THERMAL, made_results.result(rough, maps(False)))
+    shown = lines_of(fatigue_figures.all_figures(FigureStyle(dpi=40), found)["fatigue_depth"]())
+    assert "judged, Fi = 1.30 (99th percentile) at 5 µm" in shown and "surface, Fi = 1.20 (99th percentile)" in shown
+
+
+@pytest.mark.parametrize("search, first, second", [(SEARCH, "part", "whole"), (averaged(resolved=PART), "search", "resolved")])
+def test_the_search_that_decides_comes_first(search, first, second, tmp_path, monkeypatch):
+    """The resolved part, unless averaged stresses of the whole passage settle the answer."""
+    pytest.importorskip("matplotlib")
+    pytest.importorskip("plotly")
+    found = search_data.DrawnSearch.of(made_results.THERMAL, made_results.result(search, maps()))
+    assert (found.each[0] is found) == (first == "search")
+    names = list(fatigue_figures.all_figures(FigureStyle(dpi=40), found))
+    monkeypatch.setitem(made_results.EXTRA, "passage_error", KNOWN)
+    assert f"fatigue_depth_{second}" in names and set(names) <= set(fatigue_figures.NAMES)
+    seen = page(made_results.run(tmp_path / "a.zarr", search=search, found=maps()), tmp_path)
+    headings = [one for one in seen.headings if one.startswith("Fatigue")]
+    assert headings == ["Fatigue, resolved part", "Fatigue, whole passage"][:: 1 if first == "part" else -1]
+    assert f"The answer uses this {first}: " in seen.text and seen.text.count("The answer uses") == 1
+
+
+def test_a_page_marks_and_lists_the_averaged_index_that_decides(tmp_path, monkeypatch):
+    pytest.importorskip("plotly")
+    monkeypatch.setitem(made_results.EXTRA, "passage_error", KNOWN)
+    seen = page(made_results.run(tmp_path / "a.zarr", search=averaged(), found=maps(False)), tmp_path)
+    for figure, axis in (("chain", "x4"), ("over-depth", "x")):
+        shown = {one["name"]: one for one in seen.figures[figure]["data"] if one.get("xaxis", "x") == axis and "name" in one}
+        mark = shown["below: 1.250 (stresses averaged over 10 µm)"]
+        assert (values(mark["x"]), values(mark["y"])) == (pytest.approx([1.25]), pytest.approx([9.0]))
+    assert "Lines are of stresses at points; the marks of the index are those of the answer." in seen.text
+    marks = [one["name"] for one in seen.figures["index-surface"]["data"] if "Fi = " in one.get("name", "")]
+    assert marks == ["largest at points, Fi = 1.60"]
+    rows = seen.text[seen.text.index("Numbers and their errors") :]
+    assert "9 µm below the surface, largest (stresses averaged over 10 µm)\n1.250\n0.040" in rows
+    assert "below it (stresses averaged over 10 µm)" in seen.text[seen.text.index("Critical points") :]

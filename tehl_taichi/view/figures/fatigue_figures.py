@@ -13,7 +13,7 @@ from tehl_taichi.values.checks import number
 from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.digits import micrometres
 from tehl_taichi.view.figures import distribution_figure, palette
-from tehl_taichi.view.figures.index_text import error_of, index_text, largest, mpa
+from tehl_taichi.view.figures.index_text import answer_points, at_points, error_of, index_text, judged_text, mpa
 from tehl_taichi.view.figures.limit_line import crosses_limit, handle, limit_line, line_words
 from tehl_taichi.view.figures.map_panels import bar, mirrored, shade
 from tehl_taichi.view.figures.search_data import beside_worst
@@ -58,7 +58,7 @@ class DrawnLayer:
 
 
 NAMES = ("fatigue", "fatigue_distribution", "fatigue_depth", "fatigue_point", "fatigue_depth_whole",
-         "fatigue_point_whole")  # at most
+         "fatigue_point_whole", "fatigue_depth_resolved", "fatigue_point_resolved")  # at most
 
 
 def all_figures(page, found):
@@ -69,7 +69,7 @@ def all_figures(page, found):
     figures = {"fatigue": lambda: index_figure(page, found, layers)}
     if distribution_figure.has_distribution(found.result):
         figures["fatigue_distribution"] = partial(distribution_figure.distribution_figure, page, found)
-    for one, more in zip(found.each, ("", "_whole")):
+    for one, more in zip(found.each, ("", "_whole" if found.early else "_resolved")):
         if one.result.findley_stress_under_row is not None:
             figures[f"fatigue_depth{more}"] = partial(depth_figure, page, one)
         figures[f"fatigue_point{more}"] = partial(worst_points, page, one)
@@ -202,14 +202,15 @@ def _section(page, figure, ax, found, Fi, depth):
 
 
 def _over_depth(ax, found, Fi, depth):
-    deep, alone = found.summary["below"], found.result.index("findley_stress_contact_alone")
-    line, = ax.plot(Fi.max(axis=1), depth, ".-", label=f"under the {found.whose}")
-    ax.plot(deep["Fi_max"], deep["depth_m"] * 1e6, "+", color=line.get_color(), ms=2.5 * line.get_markersize(),
-            mew=line.get_linewidth(), label=f"largest, Fi = {largest(deep)} at {micrometres(deep['depth_m'])} µm")
+    (top, *deep), alone = answer_points(found.summary), found.result.index("findley_stress_contact_alone")
+    pointwise, judged = ("", "largest") if at_points(found.summary) else (", stresses at points", "judged")
+    line, = ax.plot(Fi.max(axis=1), depth, ".-", label=f"under the {found.whose}{pointwise}")
+    for one in deep:
+        ax.plot(one.Fi, one.depth * 1e6, "+", color=line.get_color(), ms=2.5 * line.get_markersize(),
+                mew=line.get_linewidth(), label=f"{judged}, Fi = {judged_text(one)} at {micrometres(one.depth)} µm")
     if alone is not None:
         ax.plot(alone, depth, "--", color=palette.GREY, label="smooth contact")
-    ax.plot(found.summary["Fi_max"], 0.0, "o", color=palette.VERMILLION, clip_on=False,
-            label=f"surface, Fi = {largest(found.summary)}")
+    ax.plot(top.Fi, 0.0, "o", color=palette.VERMILLION, clip_on=False, label=f"surface, Fi = {judged_text(top)}")
     ax.set_xlabel("largest Fi")
     ax.grid()
 

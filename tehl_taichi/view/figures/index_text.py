@@ -2,6 +2,7 @@
 
 import math
 
+from tehl_taichi.fatigue.judged_layers import judged_points, over
 from tehl_taichi.values.digits import decimals
 
 PART = "while the grid resolves the pressure"
@@ -30,6 +31,30 @@ def error_of(found):
 def largest(found):
     """Text of the largest index of such a summary."""
     return index_text(found["Fi_max"], error_of(found))
+
+
+def answer_points(found):
+    """[:class:`tehl_taichi.fatigue.judged_layers.JudgedPoint`] at and below the surface whose index counts for the answer, of a
+    search with this summary.
+    """
+    return judged_points({"": found})
+
+
+def at_points(found):
+    """Whether these indices are of stresses at points, as the curves and maps of the index; else of averaged stresses or a
+    percentile.
+    """
+    return all(point.key == "Fi_max" and not point.length for point in answer_points(found))
+
+
+def critical_word(found):
+    """Text of the largest index of stresses at points, which is not that of the answer if averaged stresses lead."""
+    return "largest at points" if any(point.length for point in answer_points(found)) else "critical point"
+
+
+def judged_text(point):
+    """Text of the index of such a point."""
+    return f"{index_text(point.Fi, point.error)}{over(point.length)}{' (99th percentile)' * (point.key != 'Fi_max')}"
 
 
 def mpa(stress):

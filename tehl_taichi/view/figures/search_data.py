@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from tehl_taichi.fatigue.judged_layers import deciding
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.scene.feature_wording import feature_word, from_centre, position_word
@@ -27,7 +28,7 @@ def in_micrometres(depth):
 class DrawnSearch:
     """title: name of the scene; result: numbers and arrays; a: m; along: title of the axis along x; depth: µm, of the layer to
     show besides the surface, or None (the worst); whose: text of the passing feature; part: DrawnSearch of the resolved part,
-    on which the verdict rests, or None; when: text of the moments, "" without a part.
+    or None; when: text of the moments, "" without a part; early: whether the verdict rests on the resolved part.
     """
 
     title: str
@@ -38,6 +39,7 @@ class DrawnSearch:
     whose: str = "feature"
     part: Any = None
     when: str = ""
+    early: bool = True
 
     @classmethod
     def of(cls, scene, result, depth=None):
@@ -50,7 +52,7 @@ class DrawnSearch:
         known = result.part
         part = cls(name, known, a, along, depth, whose, when=resolved_words(known.summary, position_word(scene))
                    ) if known and known.Fi is not None else None
-        return cls(name, result, a, along, depth, whose, part, REST if part else "")
+        return cls(name, result, a, along, depth, whose, part, REST if part else "", deciding(result.summaries)[1])
 
     @property
     def summary(self):
@@ -66,7 +68,8 @@ class DrawnSearch:
     @property
     def each(self):
         """Searches to show; the one that decides the verdict is first."""
-        return [self.part, self] if self.part else [self]
+        both = [self.part, self] if self.early else [self, self.part]
+        return both if self.part else [self]
 
     @property
     def one_row(self):
