@@ -45,7 +45,7 @@ def _critical(cam):
 
 def limits(cam):
     """Sentences about the meaning of Fi = 1; () without an index."""
-    return place_sections.limit(_critical(cam)[0])
+    return place_sections.limit(*_critical(cam))
 
 
 def answer(cam):

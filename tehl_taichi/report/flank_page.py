@@ -70,7 +70,7 @@ def judged_places(flank):
 
 def limits(flank):
     """Sentences about the meaning of Fi = 1; () without an index."""
-    return place_sections.limit(_critical(flank)[0])
+    return place_sections.limit(*_critical(flank))
 
 
 def answer(flank):

@@ -68,8 +68,9 @@ def passages(rows, words):
     return (f"Passages and hours to initiation are those of the index that decides at each place{most * bool(early)}.",)
 
 
-def limit(store):
-    """Sentences about the meaning of Fi = 1; () without an index."""
+def limit(store, words):
+    """Sentences about the meaning of Fi = 1; () without an index. words: text of the position of the store."""
     if not store or not {"fatigue", "contact_alone"} & store.summary.keys():
         return ()
-    return (*limit_words(store.scene), *filter(None, [limit_meaning.sentence(store.summary, store.scene.fatigue)]))
+    return (*limit_words(store.scene), *filter(None, [limit_meaning.sentence(
+        store.summary, store.scene.fatigue, f"like that at {words}")]))

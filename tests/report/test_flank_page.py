@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 import tehl_taichi as tehl
 from tehl_taichi.report import flank_page
 from tehl_taichi.runs.flank.stored_flank import Flank
+from tehl_taichi.runs.summary import limit_meaning
 
 pytest.importorskip("plotly")
 
@@ -30,6 +31,16 @@ def test_the_page_says_whose_limit_which_oil_and_where_the_maps_are(flank):
     assert {"map-pressure", "map-film", "surface"} <= set(page.figures)
     text = str(page.sections)
     assert "The oil is reference-pao" in text and "'grid', '32 × 8 cells" in text
+
+
+def test_the_smooth_contact_of_the_limit_is_that_of_the_critical_position(tmp_path):
+    """Each position has another contact; a run has one, which is this one."""
+    folder, search = made_results.flank(tmp_path / "f"), made_results.fatigue(1.4, None)
+    search["contact_alone"]["error"] = {"Fi_max": 0.01}
+    store = tehl.open(made_results.run(folder / "1.zarr", search=search)).store
+    meaning, = [one for one in flank_page.limits(Flank.open(folder)) if "has Fi = 1 at about" in one]
+    assert "; a smooth contact like that at A, x_pl = -9.502 mm has Fi = 1 at about" in meaning
+    assert "a smooth contact like this one has" in limit_meaning.sentence(store.summary, store.scene.fatigue)
 
 
 def test_gears_are_named_in_units_that_people_read(flank):

@@ -30,12 +30,14 @@ def _alone(summary):
     return max(found, key=lambda part: part["Fi_max"], default={})
 
 
-def sentence(summary, fatigue):
-    """Sentence about the meaning of the limit, "" if no smooth contact is known; fatigue: the section of the scene."""
+def sentence(summary, fatigue, place="like this one"):
+    """Sentence about the meaning of the limit, "" if no smooth contact is known; fatigue: the section of the scene; place: text
+    of the contact.
+    """
     if not (found := smooth_pressure(summary)):
         return ""
     value, error = (one * 1e-9 for one in found)
-    contact = f"a smooth contact like this one has Fi = 1 at about {with_error(value, error, 'GPa')}"
+    contact = f"a smooth contact {place} has Fi = 1 at about {with_error(value, error, 'GPa')}"
     if fatigue.limit_of == "contact":
         return f"The limit is meant as that of a contact: {contact}."
     return f"The limit is meant as that of a specimen{_in_tests(fatigue)}; {contact}."
