@@ -1,15 +1,19 @@
 """The body without the feature: its material points, which the feature slides over, and what is said of both."""
 
+import made_results
 import numpy as np
 import pytest
 from fatigue.stress.test_material_points import CELLS, Formula, gear
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.fatigue import assessment
+from tehl_taichi.fatigue import assessment, judged_layers
 from tehl_taichi.fatigue.judged_surfaces import by_surface, others
+from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.fatigue.stress import histories
 from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.report import searches as page_searches
 from tehl_taichi.report import verdict
+from tehl_taichi.runs.flank import flank_columns
 from tehl_taichi.runs.summary import summary_rows
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
@@ -117,6 +121,22 @@ def test_the_worse_body_leads_and_the_other_is_kept():
     assert by_surface({"fatigue": {"Fi_max": 1.0}}) == {"a": {"Fi_max": 1.0}}  # of a version that searched body a alone
     rows = dict(summary_rows.fatigue_rows(found.summary, others(summary)))
     assert rows["worse body"] == first and any(f"({second})" in what for what in rows)
+
+
+def test_the_body_on_which_the_verdict_rests_is_named_where_the_other_has_more_in_the_whole_passage():
+    """Body a has more in moments that the grid does not resolve; b decides, in tables, on the screen and on pages."""
+    early = {name: {**made_results.fatigue(Fi, None), "error": {"Fi_max": 0.01}, "to_x_a": 0.5} for name, Fi in
+             (("a", 0.7), ("b", 0.9))}
+    both = {name: {**made_results.fatigue(Fi, None), "surface": name, "error": {"Fi_max": None}, "resolved": early[name]}
+            for name, Fi in (("a", 1.5), ("b", 1.3))}
+    for searches, decides in ((both, "b"), ({name: made_results.fatigue(Fi, None) | {"surface": name} for name, Fi in
+                                             (("a", 1.5), ("b", 1.3))}, "a")):
+        summary = {"fatigue": searches["a"], "fatigue_by_surface": searches}
+        assert flank_columns.judged_body(summary) == judged_layers.judged_point(searches).surface == decides
+        row = dict(summary_rows.fatigue_rows(searches["a"], others(summary)))["worse body"]
+        assert row == "a" + " (the verdict rests on body b)" * (decides == "b")
+        words = page_searches._body(SearchResult.from_arrays(searches, lambda name: None))
+        assert words == ", body a, " + {"a": "the worse one", "b": "while the answer rests on body b"}[decides]
 
 
 @pytest.mark.parametrize("Fi_a, Fi_b, said", [((1.2, 0.01), (0.9, 0.01), "Yes: the fatigue limit is exceeded at surface a."),

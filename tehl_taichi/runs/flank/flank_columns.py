@@ -5,7 +5,7 @@ import io
 from dataclasses import dataclass
 from typing import Callable
 
-from tehl_taichi.fatigue.judged_layers import worst_layer
+from tehl_taichi.fatigue.judged_layers import judged_point, worst_layer
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.march import quantities
@@ -86,6 +86,12 @@ def judged_index(summary):
     return Fi, error
 
 
+def judged_body(summary):
+    """Name of the body whose index decides about a position, None without a search."""
+    found = value_at(summary, "fatigue")
+    return judged_point(by_surface(summary)).surface if found and not why_none(found) else value_at(found, "surface")
+
+
 class _DecidingIndex:
     """Column of the index that decides about a position, with its error bar."""
 
@@ -141,7 +147,7 @@ COLUMNS = (
     TableColumn("von_mises_max_Pa", "Mises GPa", 1e-9, ".3f", _PassageValue("von_mises", "max_Pa"), PASSAGE),
     TableColumn("passages", "passages", 1, ".2g", _SummaryValue("life", "passages"), PASSAGE),
     TableColumn("hours", "hours", 1, ".2g", _SummaryValue("life", "hours"), PASSAGE),
-    TableColumn("worse_body", "body", 1, "", lambda at, p_H, summary: value_at(summary, "fatigue", "surface"), PASSAGE),
+    TableColumn("worse_body", "body", 1, "", lambda at, p_H, summary: judged_body(summary), PASSAGE),
 )
 
 
