@@ -72,6 +72,7 @@ def run(
     """
     import tehl_taichi as tehl
     from tehl_taichi.runs import single_run
+    from tehl_taichi.runs.summary.summary import planned_summary
     from tehl_taichi.scene import zoom_room
     from tehl_taichi.store.load_scene import find_changed
 
@@ -91,9 +92,8 @@ def run(
     if out is None:
         say_idle(context, "without --out every run makes a store of its own", "force")
     if dry_run:
-        say_idle(context, "--dry-run prints text", "as_json")
         single_run.check(description, out, force, threads, arch)
-        return _print_scene(description)
+        return print_json(planned_summary(description)) if as_json else _print_scene(description)
     with Live(quiet, curves) as live, time_budget(live if timing else None) as budget:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
         if zoom == AUTO and not zoom_room.why_none(description) and done.finished:

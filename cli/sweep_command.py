@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
-from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import say
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
@@ -19,7 +18,6 @@ def register(app):
 
 def sweep(
     scene: str = typer.Argument(..., help="built-in name, TOML scene, TOML study file, or study to resume"),
-    context: typer.Context = None,
     over: Optional[List[str]] = typer.Option(None, "--over", help="key=values with values a,b,c or low:high:N or "
                                                                   "low:high:N:log; 'key=values key=values' change together; "
                                                                   "repeatable"),
@@ -62,11 +60,10 @@ def sweep(
     if dry_run:
         sweeping.check_settings(workers, threads_per_worker, scheduler, keep, connect=False)
         sweeping.check_place(plan, out, keep)
-        say_idle(context, "--dry-run prints text", "as_json")
-        return _report(plan, out)
+        return print_json(_planned_dict(plan, out)) if as_json else _report(plan, out)
     _check_count(plan, yes)
     for sentence in doubts(plan):
-        say(sentence)
+        say(f"warning: {sentence}")
     with SweepLive(quiet) as live:
         try:
             study = sweeping.run(plan, out, workers=workers, threads_per_worker=threads_per_worker, scheduler=scheduler,
@@ -107,6 +104,16 @@ def _check_count(plan, yes):
         raise SceneError(f"{plan.count} cases are more than {MANY}; use --yes to run them anyway, --dry-run to list them")
 
 
+def _planned_dict(plan, out):
+    """JSON object of a sweep that would run; results: all cases, with the reason of a refused one."""
+    from tehl_cli.sweep_display import doubts
+
+    refused = plan.refused()
+    return {"dry_run": True, "scene": plan.scene.name, "cases": plan.count, "shape": plan.shape, "study": str(out),
+            "warnings": list(doubts(plan)),
+            "results": [{"case": n, "changes": plan.changes(n), "reason": refused.get(n, "")} for n in range(plan.count)]}
+
+
 def _report(plan, out):
     """Print the plan of a sweep."""
     from tehl_cli.sweep_display import doubts
@@ -123,7 +130,7 @@ def _report(plan, out):
     for number, reason in refused.items():
         put(f"case {number} would be refused: {reason}")
     for sentence in doubts(plan):
-        put(sentence)
+        put(f"warning: {sentence}")
 
 
 def _print(study, as_json):

@@ -118,11 +118,11 @@ def duration(seconds):
 
 def doubts(plan):
     """Warnings about keys without effect, in all cases or in some of them."""
-    yield from (f"warning: {sentence}" for sentence in plan.doubts())
-    yield from (f"warning: case {number} equals case {first}: the keys that differ have no effect there"
+    yield from plan.doubts()
+    yield from (f"case {number} equals case {first}: the keys that differ have no effect there"
                 for number, first in plan.equal().items())
     if some := plan.without_temperatures():
-        yield (f"warning: {_cases(some)} no temperatures, the other cases do; use --thermal to compute them in all cases, "
+        yield (f"{_cases(some)} no temperatures, the other cases do; use --thermal to compute them in all cases, "
                "--isothermal in none")
 
 

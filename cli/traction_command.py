@@ -62,7 +62,7 @@ def traction(
     check_rows(grid, changes, lambda: base)
     plan = traction_plan(base, srr, temperature, speed, changes, load, hertz_pressure)
     for sentence in doubts(plan):
-        say(sentence)
+        say(f"warning: {sentence}")
     with SweepLive(quiet) as live:
         try:
             found = computed(plan, out, workers=workers, threads_per_worker=threads_per_worker, progress=live)

@@ -1,5 +1,6 @@
 """--dry-run refuses what the run would refuse, and writes nothing."""
 
+import json
 import os
 
 import made_results
@@ -7,6 +8,7 @@ import pytest
 from commands import here
 from small_stores import SMALL
 
+import tehl_taichi as tehl
 from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.runs.sweep.study_table import Study
 
@@ -48,3 +50,21 @@ def test_what_the_run_accepts(folder, words):
     before = listed(folder)
     found = here(*words, cwd=folder)
     assert found.returncode == 0 and found.stdout and listed(folder) == before, found.stderr
+
+
+@pytest.mark.parametrize("words", [RUN, SWEEP, (*RUN, "--width", 1.2e-4)])
+def test_the_plan_as_one_json_object(folder, words):
+    found, text = here(*words, "--json", cwd=folder), here(*words, cwd=folder).stdout
+    plan = json.loads(found.stdout)
+    assert (found.returncode, found.stderr, plan["dry_run"]) == (0, "", True)
+    assert all(sentence in text for sentence in plan["warnings"]) and text.count("warning: ") == len(plan["warnings"])
+
+
+def test_the_plan_says_what_the_summary_will_say(folder):
+    """Numbers that a run and its plan both have are equal."""
+    plan = json.loads(here("run", folder / "run.zarr", "--dry-run", "--json").stdout)
+    whole = tehl.open(folder / "run.zarr").summary
+    shared = plan.keys() & whole.keys() - {"steady", "steps", "warnings", "warning_codes", "warning_data"}
+    assert {"hertz", "cells", "domain", "left_out"} <= shared and {key: plan[key] for key in shared} == {
+        key: json.loads(json.dumps(whole[key])) for key in shared}
+    assert plan["steady"].items() <= whole["steady"].items()

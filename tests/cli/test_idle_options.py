@@ -22,14 +22,13 @@ def no_work(monkeypatch):
 
 
 @pytest.mark.parametrize("words, said", [
-    (("run", "gear", "--dry-run", "--force"), ["--force"]), (("run", "gear", "--dry-run", "--json"), ["--json"]),
+    (("run", "gear", "--dry-run", "--force"), ["--force"]), (("run", "gear", "--dry-run", "--json"), []),
     (("run", "gear", "--dry-run", "--zoom", "auto", "--steady"), ["--zoom auto"]),
     (("run", "smooth-line", "--dry-run", "--zoom", "auto"), ["--zoom auto"]),
     (("run", "gear", "--dry-run", "--zoom", "auto", "--steps", 1), ["--zoom auto"]),
     (("run", "gear", "--dry-run", "--zoom", "auto", "--set", "zoom.width_x=0.5"), []),
     (("run", "gear", "--dry-run", "--zoom", 4, "--steps", 1), ["zoom.factor"]),
     (("run", "gear", "--dry-run", "--zoom", 0, "--steady"), []),
-    (("sweep", "gear", "--over", "srr=0.1,0.2", "--dry-run", "--json"), ["--json"]),
     (("fatigue", "none", "--dpi", 300, "--force", "--kappa", 0.2), ["--dpi 300", "--force"]),
     (("crack", "none", "--format", "pdf", "--width", 8.5), ["--format pdf", "--width 8.5"]),
     (("flank", "none", "--no-figure", "--figure-width", 8.5), ["--figure-width 8.5"]),

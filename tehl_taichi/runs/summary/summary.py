@@ -14,6 +14,8 @@ from tehl_taichi.runs.summary.search_rows import nearest_to_yield
 from tehl_taichi.scene import surface_roughness
 from tehl_taichi.scene.film_formula import central_film, formula_words, spread
 from tehl_taichi.scene.scales import Scales, peclet
+from tehl_taichi.scene.scene_warnings import preview
+from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.store import attributes
 from tehl_taichi.values.automatic import AutomaticValue
 from tehl_taichi.values.coded_text import reasons_of, unknown_of
@@ -86,6 +88,14 @@ def unfinished_summary(store):
             "left_out": store.scene.left_out(), "warnings": store.warnings}
 
 
+def planned_summary(scene):
+    """JSON object of `tehl run --dry-run --json`: what is known about a run before it starts."""
+    found = scene.warnings()
+    return {"scene": scene.name, "version": __version__, "dry_run": True, "steps": total_steps(scene), "cells": _cells(scene),
+            "hertz": _hertz(Scales.of(scene)), "domain": domain_of(scene), "left_out": scene.left_out(),
+            "steady": _film_formula(scene), "preview": preview(scene), **lists(found)}
+
+
 def _run_in_so_far(store):
     """Completed passages of the run-in, and rounds of the current one."""
     state = store.run_in
@@ -98,9 +108,13 @@ def grid_counts(store):
     ny cells are those of the half domain y >= 0 (the whole domain has 2 ny + 1 nodes); 0 without variation along y (one row of
     nodes).
     """
-    scene, grid = store.scene, store.scene.grid
+    scene = store.scene
     return {"grid": {"nx": store.x.size, "ny": store.y.size, "nz": 1 if scene.isothermal else scene.thermal.nodes},
-            "cells": {"nx": grid.nx, "ny": 0 if scene.one_dimensional else grid.ny}}
+            "cells": _cells(scene)}
+
+
+def _cells(scene):
+    return {"nx": scene.grid.nx, "ny": 0 if scene.one_dimensional else scene.grid.ny}
 
 
 def domain_of(scene):
@@ -131,12 +145,15 @@ def _hertz(scales):
 
 
 def _steady(store, extra):
-    out = _numbers(store, "steady")
-    out["film_formula_m"], out["ripple_Pa"] = central_film(store.scene), worst_ripple(store, [0])[0][0]
-    out["film_formula"], out["film_formula_spread"] = formula_words(store.scene), spread(store.scene)
+    out = {**_numbers(store, "steady"), "ripple_Pa": worst_ripple(store, [0])[0][0], **_film_formula(store.scene)}
     out["error"], out["error_parts"] = extra["steady_error"], extra.get("steady_parts", {})
     reasons = {"unknown": extra.get("steady_unknown", {}), "unknown_codes": extra.get("steady_unknown_codes", {})}
     return {**out, **unknown_of(reasons_of(reasons)), **_ends(extra.get("steady_domain", {}))}
+
+
+def _film_formula(scene):
+    """Central film by formula, its name and its uncertainty."""
+    return {"film_formula_m": central_film(scene), "film_formula": formula_words(scene), "film_formula_spread": spread(scene)}
 
 
 def _ends(known):
