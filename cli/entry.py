@@ -11,9 +11,11 @@ import signal
 import sys
 import threading
 import time
+import traceback
 import warnings
 
 CLOCK: dict[str, float] = {}  # "began": the command
+STOPS: list[str] = []  # names of the signals that came, "" for Ctrl-C
 FAILED, INTERRUPTED = 1, 4  # as in tehl_taichi.errors, which takes longer to import than a hasty Ctrl-C
 AGAIN = 0.01  # s until a dropped stop comes again: by then the callback that dropped it has ended
 SELDOM = 50_000, 20, 100  # new objects between searches for garbage, of which imports and kernels make hardly any: 700, 10, 10
@@ -32,12 +34,14 @@ def main():
         code = _run()
         sys.stdout.flush()
     except KeyboardInterrupt as stop:
+        _ignore_stops()
         name = getattr(stop, "signal", "")
         _print_last(f"{f'stopped by {name}' if name else 'interrupted'}; all stored data are kept")
         code = INTERRUPTED
     except BrokenPipeError:  # as in `tehl show STORE | head`: the reader has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         code = 0
+    _ignore_stops()
     end["code"] = code
     sys.exit(code)
 
@@ -66,9 +70,12 @@ def _run():
     except BrokenPipeError:
         raise
     except Exception as error:  # noqa: BLE001  every failure ends in one sentence
+        if STOPS and not hasattr(error, "exit_code"):  # made of a stop, as C code does while it is imported
+            raise _by(STOPS[-1]) from error
         if debug:
-            raise
-        _print_last(_sentence(error))
+            traceback.print_exc()
+        else:
+            _print_last(_sentence(error))
         return getattr(error, "exit_code", FAILED)
     return 0
 
@@ -148,16 +155,24 @@ def _stop_as_ctrl_c_does():
     """Let `kill` and a closed terminal stop a run like Ctrl-C, with the signal's name; signals that the caller ignores (nohup)
     stay ignored.
     """
-    for name in ("SIGTERM", "SIGHUP"):
-        number = getattr(signal, name, None)
+    usual = {signal.SIGINT: signal.default_int_handler, signal.SIGTERM: signal.SIG_DFL, signal.SIGHUP: signal.SIG_DFL}
+    for number, handler in usual.items():
         with contextlib.suppress(ValueError):  # not the main thread
-            if number and signal.getsignal(number) == signal.SIG_DFL:
+            if signal.getsignal(number) == handler:
                 signal.signal(number, _stop)
     sys.unraisablehook = _stop_again
 
 
+def _ignore_stops():
+    """Let further stops change nothing once the exit code is known: Python's own end dies of them. SIGQUIT ends it anyway."""
+    with contextlib.suppress(ValueError):  # not the main thread
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, signal.SIG_IGN)
+
+
 def _stop(number, _):
-    raise _by(signal.Signals(number).name)
+    STOPS.append("" if number == signal.SIGINT else signal.Signals(number).name)
+    raise _by(STOPS[-1])
 
 
 def _stop_again(dropped):

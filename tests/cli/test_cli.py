@@ -152,8 +152,7 @@ def test_a_repeated_run_that_breaks_opens_and_resumes_to_the_same_result(finishe
     os.kill(run.pid, stop)
     code = run.wait()
     if (path / "zarr.json").exists() and "steps" in Store.open(path).attrs and len(Store.open(path)):
-        # -SIGINT: Python's own end of a finished run was hit
-        assert code in (-signal.SIGKILL, 4, 0) or code == -signal.SIGINT and Store.open(path).finished
+        assert code in (-signal.SIGKILL, 4, 0)
         if not Store.open(path).finished:  # the stop may have come too late; a finished one would go on behind its ten steps
             assert tehl("resume", path, "--threads", 2).returncode == 0
         assert_same(finished[0], path)

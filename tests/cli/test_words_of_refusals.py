@@ -224,6 +224,7 @@ def test_an_interrupt_is_named_by_its_signal_never_by_an_exit_code(monkeypatch, 
 
     monkeypatch.setattr(entry.atexit, "register", lambda *_: None)  # or pytest itself would end with the code of this command
     monkeypatch.setattr(entry, "_stop_as_ctrl_c_does", lambda: None)
+    monkeypatch.setattr(entry, "_ignore_stops", lambda: None)
     for raised, said in ((KeyboardInterrupt(), "interrupted"), (entry._by("SIGTERM"), "stopped by SIGTERM")):
         def ended(raised=raised):
             try:
@@ -281,6 +282,55 @@ def test_a_stop_that_python_drops_comes_again(number, named):
     """Errors of the callback of a weak reference are ignored, a Ctrl-C among them."""
     run = subprocess.run([sys.executable, "-c", DROPPED, str(int(number))], text=True, capture_output=True)
     assert (run.returncode, run.stderr) == (4, f"tehl: {named}; all stored data are kept\n")
+
+
+AGAIN = """
+import signal, sys
+import tehl_cli.main
+from tehl_cli.entry import main
+
+class Last:  # deleted when Python has handed the signals back to the system
+    def __del__(self, stop=signal.raise_signal, number=int(sys.argv[1])):
+        stop(number)
+
+class Writer:  # what it is led to is written while the last message is printed
+    def write(self, text, stop=signal.raise_signal, number=int(sys.argv[1])):
+        stop(number)
+        return sys.__stderr__.write(text)
+
+    flush = sys.__stderr__.flush
+
+def app():
+    if sys.argv[2] == "last message":
+        sys.stderr = Writer()
+    signal.raise_signal(int(sys.argv[1]))
+
+last, tehl_cli.main.app = Last(), app
+main()
+"""
+
+
+@pytest.mark.parametrize("when", ["end of Python", "last message"])
+@pytest.mark.parametrize("number, named", [(signal.SIGINT, "interrupted"), (signal.SIGTERM, "stopped by SIGTERM")])
+def test_a_second_stop_changes_nothing(number, named, when):
+    """Whenever it comes after the first one: 4 and its sentence."""
+    run = subprocess.run([sys.executable, "-c", AGAIN, str(int(number)), when], text=True, capture_output=True)
+    assert (run.returncode, run.stderr) == (4, f"tehl: {named}; all stored data are kept\n")
+
+
+def test_a_stop_that_another_library_turns_into_an_error_is_a_stop():
+    """As Python does with errors of __set_name__, and C code while it is imported."""
+    code = AGAIN.replace("signal.raise_signal(int(sys.argv[1]))\n\nlast", "try: signal.raise_signal(int(sys.argv[1]))\n"
+                         "    except BaseException: raise ImportError('initialization failed') from None\n\nlast")
+    assert code != AGAIN
+    run = subprocess.run([sys.executable, "-c", code, "15", ""], text=True, capture_output=True)
+    assert (run.returncode, run.stderr) == (4, "tehl: stopped by SIGTERM; all stored data are kept\n")
+
+
+def test_a_traceback_does_not_change_the_exit_code():
+    plain, debug = here("show", "none.zarr"), here("show", "none.zarr", "--debug")
+    assert plain.returncode == debug.returncode == 2
+    assert ("Traceback" in debug.stderr, "Traceback" in plain.stderr) == (True, False)
 
 
 WRONG = (None, 3, "x", [], "null", "3", '{"a": 1}', '[1]')
