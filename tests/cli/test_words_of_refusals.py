@@ -25,7 +25,8 @@ from tehl_taichi.scene import scene_file
 from tehl_taichi.scene.surface.maps import height_map
 from tehl_taichi.store import attributes, integrity
 
-PYTHON = re.compile(r"NoneType|object is|object has|subscriptable|indices must|Errno|Traceback|iterable|argument|Expecting")
+PYTHON = re.compile("NoneType|object is|object has|subscriptable|indices must|Errno|Traceback|iterable|"
+                    "(?:positional|keyword) argument|Expecting")
 
 
 def one_sentence(text):
