@@ -5,7 +5,7 @@ import numpy as np
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.energy import HOT
 from tehl_taichi.pressure import fields
-from tehl_taichi.scene import domain, refinement, thin_film
+from tehl_taichi.scene import domain, refinement, thick_film, thin_film
 from tehl_taichi.scene.film_formula import heated_film
 
 AT_FLOOR = 1e-3  # relative, that a film on its floor may lie above
@@ -31,7 +31,8 @@ def crossed_surfaces(shot, a, border):
 
 def _reason(solver, heat, report, passing):
     double = "" if solver.levels.precision == "f64" else ", --precision f64"
-    remedy = (not passing and domain.too_short(solver.levels.scene) or _on_its_floor(solver, passing)
+    scene = solver.levels.scene
+    remedy = (next(thick_film.warnings(scene), "") or not passing and domain.too_short(scene) or _on_its_floor(solver, passing)
               or f"try a finer grid (--grid), a smaller time.courant{double}")
     return f"{_what_failed(solver, heat, report)}; {remedy}"
 

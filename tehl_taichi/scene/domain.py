@@ -8,7 +8,7 @@ import math
 from dataclasses import replace
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import hertz
+from tehl_taichi.scene import hertz, thick_film
 from tehl_taichi.scene.film_formula import heated_film
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.automatic import AutomaticValue
@@ -142,15 +142,20 @@ def with_ends(scene, ends):
 
 
 def too_short(scene):
-    """Sentence about a fixed end of the domain that is too near for the film by formula, with a remedy; "" otherwise."""
+    """Sentence about a fixed end of the domain that is too near for the film by formula, with a remedy; "" otherwise, and for
+    a film that is too thick on any domain.
+    """
     g, s = scene.grid, Scales.of(scene)
     film = heated_film(scene) / s.h
     gaps = {"x_min": inlet_gap(s, g.x_min), **({} if s.line else {"y_max": side_gap(s, g.y_max)})}
     gap, key = min((gaps[key], key) for key in gaps)
     if g.inlet == "starved" or isinstance(getattr(g, key), AutomaticValue) or 1 + gap / film > SHORT:
         return ""
-    return (f"the gap at grid.{key} = {getattr(g, key):g} is only {1 + gap / film:.2f} times the film of the formula "
-            f"({film * s.h:.2g} m), so the domain is probably too short{farther(scene, film)}")
+    if any(thick_film.warnings(scene)):
+        return ""
+    option = farther(scene, film)
+    return with_data(f"the gap at grid.{key} = {getattr(g, key):g} is only {1 + gap / film:.2f} times the film of the formula "
+                     f"({film * s.h:.2g} m), so the domain is probably too short{option}", option, gap=1 + gap / film)
 
 
 def moved(scene):

@@ -14,6 +14,7 @@ from tehl_taichi.scene import (
     slow_surfaces,
     stiff_oil,
     surface_roughness,
+    thick_film,
     thin_film,
     timeline,
     zoom_room,
@@ -125,9 +126,14 @@ def wide_domain(scene):
     return filter(None, [domain.moved(scene)])
 
 
+def short_domain(scene):
+    """Warning about an end of the domain that the user fixed inside a thick film."""
+    return filter(None, [domain.too_short(scene)])
+
+
 # functions of a scene that give its sentences, with the code of these
 CHECKS = {resolution.warnings: "cells", domain_warnings.warnings: "room", thin_film.warnings: "film", oil_range.warnings: "oil",
           named_steels.doubts: "steel", cut_passage: "cut", thinned: "moments", doubtful_features: "feature",
-          unusual: "unit", idle_keys.doubts: "idle", wide_domain: "inlet", stiff_oil.warnings: "frozen",
-          counted_twice: "residual", beyond_relation: "hardness", left_out_of_window: "window",
-          slow_surfaces.warnings: "slow"}
+          unusual: "unit", idle_keys.doubts: "idle", wide_domain: "inlet", short_domain: "domain",
+          stiff_oil.warnings: "frozen", counted_twice: "residual", beyond_relation: "hardness", left_out_of_window: "window",
+          thick_film.warnings: "thick", slow_surfaces.warnings: "slow"}

@@ -1,14 +1,18 @@
 """Ends of the domain by what they leave of the film, and grids that keep their cells."""
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.scene import domain
+from tehl_taichi.runs.summary import result_warnings
+from tehl_taichi.scene import BUILT_INS, domain
 from tehl_taichi.scene.film_formula import heated_film
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.coded_text import without_options
+from tehl_taichi.values.coded_warning import CodedWarning
 
 BALL = tehl.scene("ball-on-disc").replace(**{"thermal.on": False})
 THICK = {"speed": 20.0, "temperature": 60.0, "thermal.on": False}
@@ -84,7 +88,7 @@ def test_an_outlet_moves_behind_the_rupture_of_a_thick_film_and_is_told(name):
 @pytest.mark.parametrize("scene, end", [(tehl.scene("smooth-line"), {"grid.x_min": -1.2}), (BALL, {"grid.y_max": 1.2})])
 def test_a_fixed_end_within_the_film_is_too_short(scene, end):
     """Not for a thin film, nor for ends by the program or by the option, nor where the scene starves the inlet."""
-    thick = scene.replace(**{**THICK, "hertz_pressure": 3e8, "grid.x_min": "auto", "grid.y_max": "auto"})
+    thick = scene.replace(**{**THICK, "speed": 5.0, "hertz_pressure": 4e8, "grid.x_min": "auto", "grid.y_max": "auto"})
     short, (key, value) = thick.replace(**end), *end.items()
     text = domain.too_short(short)
     s, film = Scales.of(short), float(re.search(r"of the formula \((\S+) m\)", text)[1])
@@ -92,5 +96,30 @@ def test_a_fixed_end_within_the_film_is_too_short(scene, end):
     assert text.startswith(f"the gap at {key} = {value:g} is only {1 + gap * s.h / film:.2f} times the film")
     farther = {found: float(far) for found, far in re.findall(r"--set (\S+)=(\S+)", text)}
     assert abs(farther[key]) > abs(value)
+    assert [str(one) for one in short.warnings() if one.code == "domain"] == [text] and "--" not in without_options(text)
     for enough in (thick, short.replace(**farther), scene.replace(**end), short.replace(**{"grid.inlet": "starved"})):
-        assert not domain.too_short(enough)
+        assert not domain.too_short(enough) and "domain" not in {one.code for one in enough.warnings()}
+
+
+def test_a_computed_loss_replaces_the_estimate_of_a_short_domain(monkeypatch):
+    """One sentence about a domain, not two; other warnings of the scene stay."""
+    estimates = [CodedWarning("by formula", "domain"), CodedWarning("coarse", "cells")]
+    store = SimpleNamespace(scene=SimpleNamespace(warnings=lambda: estimates))
+    for found in ([CodedWarning("computed", "domain")], []):
+        monkeypatch.setattr(result_warnings, "coded_warning", lambda *_, found=found: found)
+        assert result_warnings.warnings(store, {}) == [*estimates[len(found):], *found]
+
+
+@pytest.mark.parametrize("speed", [0.01, 0.1, 1.0, 20.0])
+def test_a_film_that_is_not_thin_beside_the_ball_is_doubted(speed):
+    """Whatever the speed: above a hundredth of the radius, where no domain helps."""
+    scene = tehl.scene("ball-on-disc").replace(hertz_pressure=1e8, speed=speed)
+    share = heated_film(scene) / Scales.of(scene).R
+    found = {one.code: one.data for one in scene.warnings()}
+    assert ("thick" in found, "domain" in found) == ((True, False) if share > 0.01 else (False, True))
+    assert share < 0.01 or found["thick"]["film_m"] / found["thick"]["reduced_radius_m"] == pytest.approx(share)
+
+
+@pytest.mark.parametrize("name", BUILT_INS)
+def test_built_in_scenes_have_thin_films_on_domains_that_are_long_enough(name):
+    assert not {"thick", "domain"} & {one.code for one in tehl.scene(name).warnings()}

@@ -27,9 +27,14 @@ CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a mome
 
 
 def warnings(store, summary):
-    """All warnings of a run, without repetition. store: of the run; summary: its numbers so far."""
+    """All warnings of a run, without repetition: a computed number replaces the scene's estimate of its kind.
+
+    store: of the run; summary: its numbers so far.
+    """
     checks = ROUGH_CHECKS if searched(summary.get("fatigue", {})).get("rough") else CHECKS
-    return unique([*store.scene.warnings(), *coded_warning(checks, store, summary)])
+    found = coded_warning(checks, store, summary)
+    kinds = {one.code for one in found}
+    return unique([*(one for one in store.scene.warnings() if one.code not in kinds), *found])
 
 
 def reached_maxima(store):
