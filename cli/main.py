@@ -27,7 +27,7 @@ from tehl_cli.entry import main
 from tehl_cli.key_as_option import with_hint
 from tehl_cli.single_options import Command
 
-from tehl_taichi.errors import Interrupted, stopped
+from tehl_taichi.errors import Interrupted, stopped, typed_options
 
 __all__ = ["app", "main"]
 
@@ -44,7 +44,7 @@ class Commands(typer.core.TyperGroup):
 
     def invoke(self, ctx):
         try:
-            with _printable():
+            with _printable(), typed_options():
                 return super().invoke(ctx)
         except typer.BadParameter as error:
             error.message = _with_value(error)

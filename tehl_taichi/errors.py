@@ -1,6 +1,33 @@
 """Errors of tehl_taichi: one or two sentences each, with the exit code of the command line."""
 
+import contextlib
+import re
+
 FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 4
+
+# Options that are arguments in Python; outside of whole commands, which stand in backquotes
+ARGUMENTS = {"--out": "path", "--force": "force=True", "--pixel-y": "pixel_y", "--threads-per-worker": "threads_per_worker",
+             **{f"--{name}": name for name in ("workers", "threads", "scheduler", "keep", "over", "samples", "lay", "residual",
+                                               "format")}}
+OPTION = re.compile(r"(`[^`]*`)|--[a-z]+(?:-[a-z]+)*")
+_typed = False
+
+
+@contextlib.contextmanager
+def typed_options():
+    """Errors raised within name the options of the command line, otherwise the arguments of Python."""
+    global _typed
+    before, _typed = _typed, True
+    try:
+        yield
+    finally:
+        _typed = before
+
+
+def _for_reader(text):
+    if _typed or not isinstance(text, str) or "--" not in text:
+        return text
+    return OPTION.sub(lambda found: found[1] or ARGUMENTS.get(found[0], found[0]), text)
 
 
 class Error(Exception):
@@ -24,6 +51,9 @@ class Error(Exception):
     """
 
     exit_code = FAILED
+
+    def __init__(self, *args):
+        super().__init__(*map(_for_reader, args))
 
 
 class SceneError(Error, ValueError):

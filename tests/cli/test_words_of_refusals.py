@@ -334,6 +334,25 @@ def test_a_traceback_does_not_change_the_exit_code():
     assert ("Traceback" in debug.stderr, "Traceback" in plain.stderr) == (True, False)
 
 
+def test_a_message_names_the_option_or_the_argument(tmp_path, monkeypatch):
+    """As its reader types it; whole commands in backquotes stay, in Python, too."""
+    monkeypatch.chdir(tmp_path)
+    Path("mine").write_text("mine")
+    for words, call, option, argument in (
+            ("sweep gear --over srr=0.1,0.2 --workers 0", lambda: tehl.sweep("gear", {"srr": [0.1, 0.2]}, workers=0),
+             "--workers = 0", "workers = 0"),
+            ("flank fzg-c --threads 0", lambda: tehl.flank("fzg-c", threads=0), "--threads = 0", "threads = 0"),
+            ("run gear --out mine", lambda: tehl.run("gear", "mine"), "another --out", "another path"),
+            ("sweep gear --over srr=0.1,0.2 --keep all", lambda: tehl.sweep("gear", {"srr": [0.1, 0.2]}, keep="all"),
+             "--keep = 'all'", "keep = 'all'")):
+        with pytest.raises(tehl.Error) as raised:
+            call()
+        said = here(*words.split()).stderr
+        assert option in said and argument in str(raised.value) and "--" not in str(raised.value)
+        assert said == f"tehl: {str(raised.value).replace(argument, option)}\n"
+    assert str(tehl.Error("`tehl run a --out NEW`; use --force")) == "`tehl run a --out NEW`; use force=True"
+
+
 WRONG = (None, 3, "x", [], "null", "3", '{"a": 1}', '[1]')
 THRICE = {f"{name} {what}" for name in ("summary", "warnings", "date", "version", "outputs") for what in ("removed", "= 3")}
 

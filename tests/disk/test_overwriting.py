@@ -124,7 +124,7 @@ def test_other_files_that_commands_write(run, tmp_path, monkeypatch):
     folder.mkdir()
     (folder / "flank.csv").write_text("mine")
     code, said = cli("flank", "fzg-c", "--out", folder, "--workers", 1)
-    assert code == 2 and "not a table of a flank" in said and (folder / "flank.csv").read_text() == "mine"
+    assert code == 2 and "is not the folder of a flank" in said and (folder / "flank.csv").read_text() == "mine"
 
 
 def test_a_flank_plots_into_itself_and_nowhere_else_inside(tmp_path):

@@ -52,7 +52,7 @@ def test_what_is_no_result_is_refused_and_nothing_written(tmp_path):
     (tmp_path / "flank" / "flank.json").write_text('{"name": "half"')
     with pytest.raises(StoreError, match="flank.json is damaged"):
         tehl.report(tmp_path / "flank")
-    with pytest.raises(StoreError, match="is a folder; --out takes the name of a file"):
+    with pytest.raises(StoreError, match="is a folder; path takes the name of a file"):
         tehl.report(tmp_path / "empty", tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["empty", "flank"]
 

@@ -132,7 +132,7 @@ def test_only_what_is_abandoned_is_cleaned(tmp_path):
 
 def test_force_replaces_a_store_only_when_the_new_one_stands(tmp_path):
     path = store(tmp_path / "a.zarr", entries=3).path
-    with pytest.raises(StoreError, match="exists already.*--force"):
+    with pytest.raises(StoreError, match="exists already.*force=True"):
         StoreDraft(path)
     with StoreDraft(path, replace=True):
         assert len(Store.open(path)) == 3

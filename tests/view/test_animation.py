@@ -99,7 +99,7 @@ def test_a_film_is_replaced_only_when_asked_and_never_left_half(tmp_path):
         if done == 2:
             raise KeyboardInterrupt
 
-    with pytest.raises(StoreError, match="a.gif exists already; choose another --out, or use --force"):
+    with pytest.raises(StoreError, match="a.gif exists already; choose another path, or use force=True"):
         tehl.animate(path, **SMALL)
     with pytest.raises(KeyboardInterrupt):
         tehl.animate(path, force=True, progress=stop, **SMALL)

@@ -398,11 +398,11 @@ def test_another_bearing_does_not_replace_one(tmp_path):
     """The command again does; a bearing of this name under another load would have other scenes."""
     made = [tehl.bearing("6206", **DUTY, run=False, folder=tmp_path / "q") for _ in "ab"]
     assert made[0].record == made[1].record == tehl.open(tmp_path / "q").record
-    with pytest.raises(StoreError, match="q holds bearing 6206; choose another --out"):
+    with pytest.raises(StoreError, match="q holds bearing 6206; choose another path"):
         tehl.bearing("6203", **DUTY, run=False, folder=tmp_path / "q")
     with pytest.raises(StoreError, match="inner.toml holds another scene .* made with other options"):
         tehl.bearing("6206", load=2000.0, run=False, folder=tmp_path / "q")
-    with pytest.raises(StoreError, match="q exists and is the folder of a bearing; choose another --out"):
+    with pytest.raises(StoreError, match="q exists and is the folder of a bearing; choose another path"):
         tehl.flank("fzg-c", at=["C"], folder=tmp_path / "q")
     assert tehl.open(tmp_path / "q").record == made[0].record
 

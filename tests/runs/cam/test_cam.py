@@ -143,7 +143,7 @@ def test_the_command_again_writes_a_damaged_file_and_more_angles_but_no_other_ca
     with pytest.raises(StoreError, match="c holds cam cam with the result of a contact that .* .70 deg, 50000 N/m.; choose"):
         tehl.cam(table(tmp_path), **keys)
     (tmp_path / "other.csv").write_text((tmp_path / "cam.csv").read_text())
-    with pytest.raises(StoreError, match="c holds cam cam; choose another --out"):
+    with pytest.raises(StoreError, match="c holds cam cam; choose another path"):
         tehl.cam(tmp_path / "other.csv", **keys)
     assert len(tehl.open(tmp_path / "c").rows) == 6
 

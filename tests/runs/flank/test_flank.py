@@ -34,7 +34,7 @@ TABLE = """x_pl_mm, load_N_per_mm, R_a_mm, R_b_mm, u_a_m_s, u_b_m_s, point, note
 def test_the_store_of_a_run_does_not_become_a_flank(tmp_path):
     """`tehl show`, `resume` and `run --force` would take it for a flank."""
     (tmp_path / "zarr.json").write_text("{}")
-    with pytest.raises(tehl.StoreError, match="exists and is the folder of a run; choose another --out"):
+    with pytest.raises(tehl.StoreError, match="exists and is the folder of a run; choose another path"):
         tehl.Flank.check_writable(tmp_path)
 
 
@@ -85,7 +85,7 @@ def test_a_folder_of_another_flank_is_refused_before_anything_runs(steady):
     keys = dict(at=("A", "C"), steady=True, folder=steady.folder)
     for others, said in ((dict(torque=200.0), "holds flank fzg-c with the result of a contact .*x_pl = -9.502 mm, .* N/m"),
                          (dict(at=("C",)), "holds flank fzg-c with the result of a contact"),
-                         (dict(gear="fzg-a"), "holds flank fzg-c; choose another --out"),
+                         (dict(gear="fzg-a"), "holds flank fzg-c; choose another path"),
                          (dict(changes={**SMALL, "temperature": 70.0}), "holds another scene .*; choose another folder")):
         with pytest.raises(tehl.Error, match=said):
             tehl.flank(**{"gear": "fzg-c", "changes": SMALL, **keys, **others})
@@ -307,7 +307,7 @@ def test_every_idle_key_is_reported_once():
 
 
 def test_wrong_numbers_of_threads_are_refused_by_the_name_of_their_option():
-    for words, said in ((dict(threads=0), "--threads = 0 is out of range"), (dict(workers=0), "--workers = 0 is out of range")):
+    for words, said in ((dict(threads=0), "threads = 0 is out of range"), (dict(workers=0), "workers = 0 is out of range")):
         with pytest.raises(SceneError, match=f"^{said}"):
             next(outcomes.summaries([], "none", **words))
 
