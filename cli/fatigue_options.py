@@ -4,7 +4,7 @@ import functools
 from typing import Annotated, Optional
 
 import typer
-from tehl_cli.amount import also_number
+from tehl_cli.amount import also_number, amount, metres
 from tehl_cli.shared_options import sharing
 
 from tehl_taichi.laws.criteria import CRITERIA
@@ -32,7 +32,7 @@ def _options(
     weibull: Annotated[Optional[float], typer.Option(help="Weibull exponent of the strength, for the stressed volume (0: "
                                                           "none)")] = None,
     depths: Annotated[Optional[str], typer.Option(help="depths to search: auto (critical depth under the feature), none, or a "
-                                                       "list in m for all points, for example 50e-6,100e-6")] = None,
+                                                       "list in m for all points, for example 50e-6,100um")] = None,
     surfaces: Annotated[Optional[str], typer.Option(help="bodies to search: both, a or b")] = None,
     from_x: Annotated[Optional[float], typer.Option(help="use only moments with the feature after this position, in "
                                                          "half-widths a")] = None,
@@ -62,11 +62,6 @@ def with_fatigue_options(command):
 
 
 def _depths(text):
-    from tehl_taichi.scene import SceneError
-
     if text in (None, "auto", "none"):
         return [] if text == "none" else text
-    try:
-        return [float(part) for part in text.split(",")]
-    except ValueError:
-        raise SceneError(f"--depths {text!r} must be auto, none or numbers in m separated by commas, as 50e-6,1e-4") from None
+    return [metres("--depths", amount(part)) for part in text.split(",")]

@@ -11,6 +11,8 @@ from tehl_cli.scene_options import GRIDS, changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 from tehl_cli.timing import print_budget, time_budget
 
+from tehl_taichi.values.escape import typed
+
 
 def register(app):
     """Add the commands to the app."""
@@ -123,7 +125,7 @@ def resume(
 
     before = open_run(store)
     if before.rest(steps) is None:
-        say(f"{store} is finished ({len(before.store)} entries); `tehl show {store}` prints its summary")
+        say(f"{store} is finished ({len(before.store)} entries); `tehl show {typed(store)}` prints its summary")
         if as_json:
             print_json(before.summary)
         return

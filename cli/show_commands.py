@@ -9,6 +9,8 @@ from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
+from tehl_taichi.values.escape import typed
+
 
 def register(app):
     """Add the commands to the app."""
@@ -90,16 +92,16 @@ def new(
     if gears:
         _not_of_gears(scan)
         gear_file.new(file, base or "fzg-c")
-        return put(f"wrote {file}; run it with: tehl flank {file}")
+        return put(f"wrote {file}; run it with: tehl flank {typed(file)}")
     base = base or "gear"
     if scan is None:
         scene_file.new(file, base)
-        return put(f"wrote {file}; run it with: tehl run {file}")
+        return put(f"wrote {file}; run it with: tehl run {typed(file)}")
     pixel, pixel_y = (metres(option, value) for option, value in (("--pixel", pixel), ("--pixel-y", pixel_y)))
     read, missing, refused = scan_scene.new(file, base, scan, unit, pixel, pixel_y, lay)
     fill = f"fill in feature.{' and feature.'.join(missing)} and " if missing else ""
     text = f"wrote {file} for {scan} ({read}); {fill}enter the values of your contact, oil and steel, then run: "
-    put(f"{text}tehl run {file} --grid coarse --steps 0")
+    put(f"{text}tehl run {typed(file)} --grid coarse --steps 0")
     if refused:
         put(f"warning: the scene is refused until you change it: {refused}")
 
@@ -190,8 +192,10 @@ def _state(saved):
     if saved.writer:
         return f"still being written by {saved.writer}{run_in_stage.words(saved)}"
     if not saved.finished:
-        return f"not finished{run_in_stage.words(saved)}; resume with: tehl resume {saved.path}"
-    return "finished" if saved.cut is None else f"finished, cut at {saved.cut:.2f} a; extend with: tehl resume {saved.path}"
+        return f"not finished{run_in_stage.words(saved)}; resume with: tehl resume {typed(saved.path)}"
+    if saved.cut is None:
+        return "finished"
+    return f"finished, cut at {saved.cut:.2f} a; extend with: tehl resume {typed(saved.path)}"
 
 
 def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank, bearing or cam"),

@@ -11,6 +11,7 @@ from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
 from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
+from tehl_taichi.values.escape import typed
 
 SHOWN = ((JUDGED, "Fi judged", 1), ("transient_h_min_m", "h_min um", 1e6), ("transient_p_max_Pa", "p_max GPa", 1e-9),
          ("steady_h_c_m", "steady h_c um", 1e6))
@@ -95,7 +96,7 @@ class SweepLive:
         if self.study is None:
             return "before any result was stored"
         done = len(self.study) - len(self.study.open_cases)
-        return f"after {done} of {len(self.study)} cases; {resume or f'resume with: tehl sweep {self.study.path}'}"
+        return f"after {done} of {len(self.study)} cases; {resume or f'resume with: tehl sweep {typed(self.study.path)}'}"
 
 
 def changes_words(record):
@@ -144,7 +145,7 @@ def print_study(study):
     for record in study.results():
         if not record["converged"]:
             put(f"{case_words(record)}: {record['status']}: {record['reason']}")
-    put(f"table: {study.table}; figures: tehl plot {study.path}")
+    put(f"table: {study.table}; figures: tehl plot {typed(study.path)}")
 
 
 def _number(value, error):

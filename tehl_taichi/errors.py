@@ -7,7 +7,7 @@ FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 4
 
 # Options that are arguments in Python; outside of whole commands, which stand in backquotes
 ARGUMENTS = {"--out": "path", "--force": "force=True", "--pixel-y": "pixel_y", "--threads-per-worker": "threads_per_worker",
-             **{f"--{name}": name for name in ("workers", "threads", "scheduler", "keep", "over", "samples", "lay", "residual",
+             **{f"--{name}": name for name in ("workers", "threads", "scheduler", "keep", "samples", "lay", "residual",
                                                "format")}}
 OPTION = re.compile(r"(`[^`]*`)|--[a-z]+(?:-[a-z]+)*")
 _typed = False

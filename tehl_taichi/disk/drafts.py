@@ -48,7 +48,7 @@ class Draft:
         except BaseException as error:
             self.give_up()
             if isinstance(error, OSError):
-                raise StoreError(f"cannot write to {self.path.parent}: {reason(error)}") from None
+                raise StoreError(f"cannot write to {self.path}: {reason(error)}") from None
             raise
 
     def allowed(self, replace):

@@ -80,4 +80,6 @@ def reader_of(of, function):
 
 def _given(constants):
     """{full key: value} of the given constants. Raises SceneError if two of them contradict each other."""
+    if constants.get("on") is False:
+        raise SceneError("on = False has no effect: this call searches the fatigue")
     return resolve_named({f"fatigue.{key}": value for key, value in constants.items() if value is not None})

@@ -26,6 +26,7 @@ from tehl_taichi.scene import feature_wording, yield_stress
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.values.digits import micrometres, with_error
+from tehl_taichi.values.escape import typed
 
 LATER = {state: f"Not decided: the index stays below 1 while the grid resolves the pressure, and {word} 1 later"
          for state, word in ((ABOVE, "exceeds"), (WITHIN, "may exceed"))}
@@ -235,7 +236,7 @@ def _with_error(part, key, unit):
 def _none_yet(store):
     total, writer = total_steps(store.scene), store.writer
     state = (f"It is still being written by {writer}." if writer else
-             f"It was stopped, or a step did not converge; `tehl resume {store.path.name}` continues it.")
+             f"It was stopped, or a step did not converge; `tehl resume {typed(store.path.name)}` continues it.")
     question = FATIGUE if store.scene.has_fatigue else FILM
     return Answer(question, "No answer yet: the run is not finished.", "none", (
         f"{store.last_step} of {total} time steps are stored{run_in_stage.words(store)}. {state}",), _version(store),

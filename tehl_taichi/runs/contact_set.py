@@ -11,6 +11,7 @@ from typing import Any, ClassVar, Self
 
 from tehl_taichi.disk import files, links, user_files
 from tehl_taichi.errors import StoreError
+from tehl_taichi.values.checks import integer
 
 DAMAGES = ValueError, KeyError, TypeError, AttributeError, RecursionError  # of a JSON file that tehl did not write
 
@@ -136,9 +137,12 @@ class ContactSet:
         return [store for n in range(len(self._contacts)) if (store := self.store_of(n))]
 
     def store_of(self, number: int) -> Any:
-        """The readable :class:`tehl_taichi.store.store.Store` of a contact, or None."""
+        """The readable :class:`tehl_taichi.store.store.Store` of a contact, or None. Raises SceneError for a number without a
+        contact.
+        """
         from tehl_taichi.store.store import Store
 
+        integer("number", number, 0, len(self._contacts) - 1)
         path = self.folder / Path(self._contacts[number].get("store") or "none").name
         with contextlib.suppress(StoreError):
             return Store.open(path) if path.is_dir() else None

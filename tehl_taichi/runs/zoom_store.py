@@ -8,6 +8,7 @@ from tehl_taichi.runs import single_run
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.stored_run import Run
 from tehl_taichi.scene import refinement, zoom_room
+from tehl_taichi.values.escape import typed
 from tehl_taichi.values.quantity import AUTO
 
 
@@ -31,7 +32,7 @@ def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = N
 def _check(before, factor):
     """Refuse a run that cannot have a window of this factor. Raises SceneError, StoreError."""
     if not before.finished:
-        raise StoreError(f"{before.path} is not finished: use tehl resume {before.path} first")
+        raise StoreError(f"{before.path} is not finished: use tehl resume {typed(before.path)} first")
     if factor and (why := zoom_room.why_none(before.scene)):
         raise SceneError(f"{before.path} cannot have a window: {why}")
 

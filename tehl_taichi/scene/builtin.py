@@ -7,7 +7,7 @@ from tehl_taichi.scene.description import Scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.sections import Body, Contact, Grid, Operation, Rheology, Thermal
-from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.checks import missing_file, nearest
 from tehl_taichi.values.coerce import shown
 
 # ball of steel on glass, R = 12.7 mm: E' = 117 GPa; oil with alpha = 2.2e-8 1/Pa (spec: the ridge of Venner & Lubrecht)
@@ -91,6 +91,7 @@ def scene_or_builtin(scene_):
 def scene(name="gear"):
     """Built-in scene with this name. Raises SceneError with the nearest name."""
     if name not in BUILT_INS:
+        missing_file(name)
         raise SceneError(f"unknown scene {name!r}{nearest(name, BUILT_INS)}; built in: {', '.join(BUILT_INS)}")
     return BUILT_INS[name][0]
 

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.checks import missing_file, nearest
 from tehl_taichi.values.quantity import check, count, documented, pairs, quantity
 
 LOOSE, TIGHT = 0.1, 0.001  # m_n by which a given centre distance may exceed that of the shifts (backlash), or fall short of it
@@ -169,6 +169,7 @@ PAIRS = {
 def gear_pair(name):
     """Built-in pair with this name. Raises SceneError with the nearest name."""
     if name not in PAIRS:
+        missing_file(name)
         raise SceneError(f"unknown gear pair {name!r}{nearest(name, PAIRS)}; built in: {', '.join(PAIRS)}; or name a TOML or "
                          "CSV file")
     return PAIRS[name][0]

@@ -7,6 +7,7 @@ import numpy as np
 
 from tehl_taichi.disk import files, npy
 from tehl_taichi.errors import StoreError
+from tehl_taichi.values.escape import typed
 
 NEEDED = {"step", "P", "H0"}
 
@@ -31,14 +32,15 @@ def load_last(store, folder, steps, shape):
     """
     number = max((n for n in _numbers(folder) if n <= steps), default=None)
     if number is None:
-        raise StoreError(f"{store} holds no checkpoint, so it cannot be resumed; `tehl run {store} --out NEW` repeats the run")
+        raise StoreError(f"{store} holds no checkpoint, so it cannot be resumed; `tehl run {typed(store)} --out NEW` repeats "
+                         "the run")
     try:
         state = npy.load_all(folder / f"{number}.npz") if (folder / f"{number}.npz").is_file() else {}
     except (OSError, ValueError, KeyError, EOFError, AttributeError, NotImplementedError, zipfile.BadZipFile, zlib.error):
         state = {}
     if not NEEDED <= state.keys() or state["P"].shape != shape:
         raise StoreError(f"the checkpoint {folder / f'{number}.npz'} is damaged or of another grid; the store can be read, and "
-                         f"`tehl run {store} --out NEW` repeats the run")
+                         f"`tehl run {typed(store)} --out NEW` repeats the run")
     return number, state
 
 

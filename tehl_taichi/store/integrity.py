@@ -19,6 +19,7 @@ from tehl_taichi.scene.feature import SHAPES
 from tehl_taichi.scene.sections import NEWER, SECTIONS
 from tehl_taichi.store import attributes, stored_maps
 from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.escape import typed
 
 FORMAT = 3  # 1: version 0.1, without checksums; 2: to 0.6.1, every entry of a field in folders of its own
 CHECKPOINTS = ".checkpoints"
@@ -186,7 +187,7 @@ def check_layout(path, attrs):
         raise damage_error(path, f"'format', its layout, is {shown(layout)}; allowed: 1 to {FORMAT}")
     if layout > FORMAT:
         raise StoreError(f"{path} was {written_by(attrs)}; allowed: layouts 1 to {FORMAT}. Install the version that wrote it, "
-                         f"or a newer one; `tehl run {path} --out NEW` repeats the run")
+                         f"or a newer one; `tehl run {typed(path)} --out NEW` repeats the run")
 
 
 @contextlib.contextmanager
@@ -216,9 +217,10 @@ def version_numbers(version):
 def check_version(path, attrs):
     """Refuse to continue a store of another version."""
     if version := written_by(attrs):
-        raise StoreError(f"{path} was {version}: it can be read but not resumed; `tehl run {path} --out NEW` repeats the run")
+        raise StoreError(f"{path} was {version}: it can be read but not resumed; `tehl run {typed(path)} --out NEW` repeats "
+                         "the run")
 
 
 def damage_error(path, what):
     """The StoreError about damage `what` of a store."""
-    return StoreError(f"{path} is damaged: {what}; `tehl run {path} --out NEW` repeats the run")
+    return StoreError(f"{path} is damaged: {what}; `tehl run {typed(path)} --out NEW` repeats the run")

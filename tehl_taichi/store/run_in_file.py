@@ -13,6 +13,7 @@ from tehl_taichi.plastic.run_in import BodyRunIn, RunInState
 from tehl_taichi.plastic.steel_body import SteelState
 from tehl_taichi.store import checkpoint
 from tehl_taichi.store.integrity import CHECKPOINTS
+from tehl_taichi.values.escape import typed
 
 START, LEFT = "start", "run_in"  # names of the files
 NUMBERS = "passages", "rounds", "part", "done", "contained", "unsettled", "records"
@@ -68,5 +69,5 @@ def _arrays(path, name):
 
 
 def _damaged(path, name):
-    return StoreError(f"{path / CHECKPOINTS / name}.npz is damaged or missing, and the run-in in it; `tehl run {path} --out "
-                      "NEW` repeats the run")
+    return StoreError(f"{path / CHECKPOINTS / name}.npz is damaged or missing, and the run-in in it; `tehl run {typed(path)} "
+                      "--out NEW` repeats the run")

@@ -30,6 +30,7 @@ from tehl_taichi.store.layout import OWN
 from tehl_taichi.store.reader import Reader
 from tehl_taichi.store.store_draft import CaseDraft, StoreDraft
 from tehl_taichi.values.coded_warning import texts
+from tehl_taichi.values.escape import typed
 
 
 class Store(LockedFolder, Reader):
@@ -133,7 +134,9 @@ class Store(LockedFolder, Reader):
 
     def safely(self):
         """Context manager for disk errors while a passage is written."""
-        return _disk_errors(self.path, f"{self.attrs['steps']} entries are stored; then use: tehl resume {self.path}")
+        count = self.attrs["steps"]
+        stored = "1 entry is" if count == 1 else f"{count} entries are"
+        return _disk_errors(self.path, f"{stored} stored; then use: tehl resume {typed(self.path)}")
 
     def _commit(self, **attrs):
         attrs = {**self.attrs, **attrs}
@@ -149,7 +152,7 @@ class Store(LockedFolder, Reader):
         if int(state["step"]) != self.series["step"][number - 1]:
             raise integrity.damage_error(self.path, "its checkpoint is of another step")
         if number < self.steps:
-            with _disk_errors(self.path, f"then use: tehl resume {self.path}"):
+            with _disk_errors(self.path, f"then use: tehl resume {typed(self.path)}"):
                 self._commit(steps=number)
         return state
 
@@ -175,13 +178,13 @@ class Store(LockedFolder, Reader):
         for name in integrity.optional_value(self.attrs, "results", []):
             self.metadata.pop(name, None)
         self.scene, self.attrs = scene, {name: value for name, value in self.attrs.items() if name != "summary"}
-        with _disk_errors(self.path, f"then use: tehl resume {self.path}"):
+        with _disk_errors(self.path, f"then use: tehl resume {typed(self.path)}"):
             self._commit(scene=json.dumps(scene.to_dict()), scene_toml=scene_file.dumps(scene), results="[]", finished=False,
                          **texts(scene.warnings()))
 
     def finish(self, summary, maps=None):
         """Store the summary (and maps {name: (values, dims, units, text)}) and mark the run as finished."""
-        with _disk_errors(self.path, f"every step is stored; then use: tehl resume {self.path}"):
+        with _disk_errors(self.path, f"every step is stored; then use: tehl resume {typed(self.path)}"):
             for name, (values, dims, units, text) in (maps or {}).items():
                 if os.path.lexists(self.path / name):
                     remove_whole(self.path / name)

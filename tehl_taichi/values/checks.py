@@ -69,6 +69,12 @@ def integer(where, value, low, high):
         raise SceneError(f"{where} = {shown(value)} is out of range; allowed: {low} to {high}")
 
 
+def missing_file(name):
+    """Refuse an unknown name that is a path. Raises SceneError."""
+    if "." in name or "/" in name:
+        raise SceneError(f"{name} does not exist")
+
+
 def choice(where, value, allowed):
     """Refuse `value` unless it is one of `allowed`; names the nearest one."""
     if value not in allowed:

@@ -6,6 +6,7 @@ names are checked (`checks.file_name`).
 
 import html
 import re
+import shlex
 import unicodedata
 
 FORMULA = tuple("=+-@\t\r＝＋－＠")  # a spreadsheet computes what begins so
@@ -28,6 +29,15 @@ def printable(text, keep=""):
 
 def _prints(c, keep):
     return c.isprintable() or c in keep or unicodedata.category(c) == "Zs"
+
+
+def typed(path):
+    """A path as a word of a command.
+
+    >>> typed("my runs/a.zarr"), typed("a.zarr")
+    ("'my runs/a.zarr'", 'a.zarr')
+    """
+    return shlex.quote(str(path))
 
 
 def one_line(text):

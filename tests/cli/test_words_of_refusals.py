@@ -2,7 +2,9 @@
 
 import errno
 import json
+import os
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -11,10 +13,12 @@ import time
 from pathlib import Path
 from types import SimpleNamespace
 
+import made_results
 import numpy as np
 import pytest
 from commands import CALL, here
 from small_stores import store
+from tehl_cli.fatigue_options import _depths
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import brief
@@ -353,14 +357,67 @@ def test_a_message_names_the_option_or_the_argument(tmp_path, monkeypatch):
     assert str(tehl.Error("`tehl run a --out NEW`; use --force")) == "`tehl run a --out NEW`; use force=True"
 
 
+@pytest.mark.parametrize("command", ["run", "flank", "sweep", "traction"])
+@pytest.mark.parametrize("name", ["my.tml", "runs/none"])
+def test_a_missing_file_is_not_taken_for_a_misspelt_name(command, name):
+    more = {"sweep": ("--over", "srr=0.1"), "traction": ("--srr", 0.1)}.get(command, ())
+    found = here(command, name, *more)
+    assert (found.returncode, found.stderr) == (2, f"tehl: {name} does not exist\n")
+
+
+def test_suggested_commands_take_names_with_spaces(tmp_path):
+    """As a shell reads them."""
+    path = made_results.run(tmp_path / "my run.zarr")
+    words = re.search(r"`(tehl .*?)`", here("resume", path).stderr)[1]
+    assert shlex.split(words) == ["tehl", "run", str(path), "--out", "NEW"]
+
+
+def test_a_name_that_is_too_long_is_named(tmp_path):
+    name = 250 * "a"
+    said = here("run", "gear", "--grid", "64x16", "--isothermal", "--steady", "--out", name, cwd=tmp_path).stderr
+    assert f"cannot write to {name}: File name too long" in said
+
+
+@pytest.mark.parametrize("make", [os.mkdir, os.mkfifo])
+def test_a_scan_that_is_no_file_is_not_missing(tmp_path, make):
+    make(tmp_path / "scan")
+    assert "scan' is not a file" in here("new", tmp_path / "a.toml", "--scan", tmp_path / "scan", "--pixel", "1um").stderr
+
+
+@pytest.mark.parametrize("depths, metres", [("50um", [50e-6]), ("5e-5,0.1mm", [5e-5, 1e-4]), ("none", []), ("auto", "auto")])
+def test_depths_may_have_a_unit(depths, metres):
+    assert _depths(depths) == (metres if isinstance(metres, str) else pytest.approx(metres))
+
+
+@pytest.mark.parametrize("depths", ["deep", "50bar", "", "5e-5;1e-4"])
+def test_other_depths_are_refused(depths):
+    with pytest.raises(tehl.SceneError, match="^--depths = "):
+        _depths(depths)
+
+
+def test_arguments_without_effect_or_out_of_range_are_refused(tmp_path):
+    run = tehl.open(made_results.run(tmp_path / "made.zarr"))
+    for call, said in ((lambda: run.fatigue(on=False), "on = False has no effect"),
+                       (lambda: run.fatigue(threads="1"), "threads = '1' is not a whole number"),
+                       (lambda: run.fatigue(threads=0), "threads = 0 is out of range")):
+        with pytest.raises(tehl.Error, match=said):
+            call()
+
+
+def test_a_study_has_stores_of_its_own_cases_only(tmp_path):
+    with Study.write(tmp_path / "s.zarr", plan(tehl.scene("gear"), {"srr": [0.1, 0.2]})) as study:
+        assert study.store_of(1).name == "0001.zarr"
+        for number in (2, -1, "1"):
+            with pytest.raises(tehl.SceneError, match="number = .* allowed: 0 to 1"):
+                study.store_of(number)
+
+
 WRONG = (None, 3, "x", [], "null", "3", '{"a": 1}', '[1]')
 THRICE = {f"{name} {what}" for name in ("summary", "warnings", "date", "version", "outputs") for what in ("removed", "= 3")}
 
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
-    import made_results
-
     return made_results.run(tmp_path_factory.mktemp("edited") / "whole.zarr", search=made_results.fatigue())
 
 

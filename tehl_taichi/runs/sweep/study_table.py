@@ -30,6 +30,7 @@ from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
 from tehl_taichi.runs.sweep.plan import ONE, Plan, unit
 from tehl_taichi.store import array_file
 from tehl_taichi.store.integrity import ROOT, missing_choice
+from tehl_taichi.values.checks import integer
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.escape import cell
 
@@ -163,7 +164,8 @@ class Study(LockedFolder):
         return self.path / TABLE
 
     def store_of(self, number: int) -> Path:
-        """Path of the store of a case (which may not exist)."""
+        """Path of the store of a case (which may not exist). Raises SceneError for a number without a case."""
+        integer("number", number, 0, len(self) - 1)
         return self.path / CASES / f"{number:04d}.zarr"
 
     def results(self) -> list[dict]:

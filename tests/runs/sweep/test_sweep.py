@@ -147,7 +147,7 @@ def test_numbers_of_workers():
     assert pool.sizes(workers=1) == (1, None) and pool.sizes(workers=100) == (100, 1)
     assert pool.sizes(jobs=1) == (1, None) and pool.sizes(workers=5, jobs=2)[0] == 2
     for wrong in ({"workers": 0}, {"threads": 0}, {"workers": 2, "scheduler": "tcp://x:1"}, {"workers": 1.5}):
-        with pytest.raises(SceneError, match="--workers|--threads-per-worker"):
+        with pytest.raises(SceneError, match="workers|threads_per_worker"):
             pool.sizes(**wrong)
 
 

@@ -99,7 +99,7 @@ def table_of(file):
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a file of heights (.csv, .txt, .asc, .npy)")
     if not path.is_file():
-        raise SceneError(f"feature.file = {str(file)!r} does not exist")
+        raise SceneError(f"feature.file = {str(file)!r} {'is not a file' if path.exists() else 'does not exist'}")
     table = _load(path)
     profile = line_profiles.heights_of(table.values) is not None
     found = table.of_points() if not profile and coordinates.is_narrow(table.values) else None
