@@ -19,7 +19,7 @@ EVENLY, STEEPEST = 1.5, 3.0  # differences that fall by less from grid to grid s
 # of the error by Richardson's extrapolation, and of the last difference where there is none; the blur of an extreme adds to it
 SAFETY, UNEVEN = {False: 2.0, True: 1.75}, {False: 1.75, True: 1.25}
 # Of the difference before the last, and the one before that: left as error, at most; at rest, and of a passage (473 bars of 50
-# passages: 92.2 % hold with the shares at rest, 93.4 % with twice as much, 94.3 % with three times; 5.7, 5.8, 6.2 times as wide)
+# passages: 92.2 % hold with the shares at rest, 93.4 % with twice as much, 94.3 % with three times; 5.7, 5.8, 6.2 as wide)
 EARLIER = {False: (0.1, 0.01), True: (0.2, 0.02)}
 # Of the only difference there is, and least part of a number with one, as two grids may agree by accident; at rest (of numbers
 # that are no extremes: 210 bars on 64 columns hold 98.1 %, with 1e-3 97.6 %, both 6.7 times as wide), and of a passage (24 on
