@@ -52,7 +52,7 @@ def summaries(scenes, folder, workers=None, threads=None, progress=None):
     pool.check(workers, threads)
     yield from done.items()
     progress = _KindsOnce(progress_of(progress))
-    yield from _run(places, todo, workers, threads, progress)
+    yield from _run(places, todo, workers, threads, progress, Path(folder))
     progress.stage(STAGE, len(places), len(places))
 
 
@@ -73,7 +73,7 @@ def _stored_outcome(scene, path):
     return Outcome(path, stored.summary) if stored.finished else None
 
 
-def _run(places, todo, workers, threads, progress):
+def _run(places, todo, workers, threads, progress, folder):
     """Generator of the results of :func:`summaries` for the scenes that have to run."""
     alone, count = workers == 1, len(places)
     jobs = (case.CaseJob(places[n][0], str(places[n][1].absolute()), threads, shared=not alone) for n in todo)
@@ -83,14 +83,16 @@ def _run(places, todo, workers, threads, progress):
         progress.say(f"{len(todo)} positions on {workers} workers")
     for sentence in passages_left.announced([places[n][0] for n in todo]):
         progress.say(sentence)
-    for ended, (place, answer) in enumerate(pool.results(work, jobs, workers=workers, tick=clock.tick), count - len(todo)):
-        n = todo[place]
-        scene, path = places[n]
-        outcome = _outcome(path, answer)
-        if not alone:
-            _report(progress, scene, outcome, f"{ended + 1} of {count}")
-        progress.stage(STAGE, ended + 1, count)
-        yield n, outcome
+    found = pool.results(work, jobs, workers=workers, tick=clock.tick)
+    with pool.ended(found, folder):
+        for ended, (place, answer) in enumerate(found, count - len(todo)):
+            n = todo[place]
+            scene, path = places[n]
+            outcome = _outcome(path, answer)
+            if not alone:
+                _report(progress, scene, outcome, f"{ended + 1} of {count}")
+            progress.stage(STAGE, ended + 1, count)
+            yield n, outcome
 
 
 def _outcome(path, answer):

@@ -4,12 +4,15 @@ A single worker is this process. Several are local processes (:mod:`tehl_taichi.
 (:mod:`tehl_taichi.runs.sweep.dask_cluster`).
 """
 
+import contextlib
+
+from tehl_taichi.disk.drafts import clean
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.sweep.job import LostJob
 from tehl_taichi.values.checks import integer
 from tehl_taichi.values.coerce import plain
 
-__all__ = ["LostJob", "check", "results", "sizes"]
+__all__ = ["LostJob", "check", "ended", "results", "sizes"]
 MOST = 1024  # processes, and threads of one
 
 
@@ -32,6 +35,16 @@ def results(work, jobs, *, workers=1, scheduler=None, say_line=None, tick=None):
     from tehl_taichi.runs.sweep import dask_cluster
 
     yield from dask_cluster.results(work, jobs, scheduler, say_line or (lambda sentence: None))
+
+
+@contextlib.contextmanager
+def ended(found, folder):
+    """Context manager of :func:`results`: at its end the workers have ended, and `folder` has no drafts of theirs."""
+    try:
+        with contextlib.closing(found):
+            yield
+    finally:
+        clean(folder)
 
 
 def sizes(workers=None, threads=None, scheduler=None, jobs=MOST, words="--threads-per-worker"):

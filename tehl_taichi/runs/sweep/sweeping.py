@@ -33,7 +33,7 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
     :class:`tehl_taichi.runs.sweep.case.CaseJob` (default: :func:`tehl_taichi.runs.sweep.case.run_case`).
     """
     from tehl_taichi.runs.sweep import case, pool
-    from tehl_taichi.runs.sweep.study_table import Study
+    from tehl_taichi.runs.sweep.study_table import CASES, Study
 
     callback("progress", progress)
     workers, threads = check_settings(workers, threads_per_worker, scheduler, keep)
@@ -48,8 +48,9 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
             progress(study, None)
         jobs = (_job(study, number, keep, threads, shared=workers != 1) for number in todo)
         found = pool.results(work or case.run_case, jobs, workers=workers, scheduler=scheduler, say_line=say_line)
-        for place, answer in found if todo else ():
-            _keep(study, todo[place], answer, keep, progress)
+        with pool.ended(found, study.path / CASES):
+            for place, answer in found if todo else ():
+                _keep(study, todo[place], answer, keep, progress)
     return study
 
 

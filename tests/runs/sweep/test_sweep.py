@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from commands import CALL, here
 from commands import process as tehl
-from fake_cases import cubed, formula, greedy, square
+from fake_cases import cubed, formula, greedy, square, unfinished
 
 from tehl_taichi.errors import RuntimeUnavailable, StoreError
 from tehl_taichi.report import study_page
@@ -92,6 +92,18 @@ def test_a_damaged_table_is_refused_by_name(study, tmp_path):
             opened.to_xarray()
         file.write_bytes(content)
     assert opened.to_xarray().equals(study.to_xarray())
+
+
+def test_a_stopped_sweep_leaves_no_unfinished_stores(tmp_path):
+    """Those of its workers, which it ends."""
+    def stop(study, record):
+        if record:
+            assert (study.path / "cases" / ".0001.zarr.part").exists()
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        sweeping.run(plan(GEAR, OVER), tmp_path / "s.zarr", workers=2, work=unfinished, progress=stop)
+    assert list((tmp_path / "s.zarr" / "cases").iterdir()) == []
 
 
 def test_keys_that_change_together_lie_along_one_dimension(tmp_path):
