@@ -269,7 +269,7 @@ def test_the_critical_plane_is_told_by_two_angles():
     (bending(), {"bending_limit": 5e8, "torsion_limit": 2e8}, "between 0.5 and"),
     (bending(), {"bending_limit": -5e8, "torsion_limit": 2e8}, "bending_limit"), ([["a"]], {}, "given stresses"),
     (bending(), {"bending_limit": 5e8, "torsion_limit": 1.1e11}, "torsion_limit.*1e\\+11"),
-    ([], {}, "snapshots need their scene")])
+    ([], {}, "no snapshots")])
 def test_bad_stresses_and_constants_are_one_error(of, constants, said):
     with pytest.raises(tehl.SceneError, match=said):
         tehl.fatigue(of, **constants)
