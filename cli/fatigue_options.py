@@ -7,6 +7,7 @@ import typer
 from tehl_cli.amount import also_number, amount, metres
 from tehl_cli.shared_options import sharing
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.laws.criteria import CRITERIA
 from tehl_taichi.laws.hardness import RELATIONS
 
@@ -64,4 +65,7 @@ def with_fatigue_options(command):
 def _depths(text):
     if text in (None, "auto", "none"):
         return [] if text == "none" else text
-    return [metres("--depths", amount(part)) for part in text.split(",")]
+    try:
+        return [metres("--depths", amount(part)) for part in text.split(",")]
+    except SceneError as error:
+        raise SceneError(f"{error}; allowed: auto, none, or depths such as 50e-6,100um") from None

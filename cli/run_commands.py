@@ -74,7 +74,6 @@ def run(
     """
     import tehl_taichi as tehl
     from tehl_taichi.runs import single_run
-    from tehl_taichi.runs.summary.summary import planned_summary
     from tehl_taichi.scene import zoom_room
     from tehl_taichi.store.load_scene import find_changed
 
@@ -95,7 +94,7 @@ def run(
         say_idle(context, "without --out every run makes a store of its own", "force")
     if dry_run:
         single_run.check(description, out, force, threads, arch)
-        return print_json(planned_summary(description)) if as_json else _print_scene(description)
+        return _print_plan(description) if as_json else _print_scene(description)
     with Live(quiet, curves) as live, time_budget(live if timing else None) as budget:
         done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
         if zoom == AUTO and not zoom_room.why_none(description) and done.finished:
@@ -103,6 +102,12 @@ def run(
     _print(done, as_json, description.warnings(), budget)
     if description.time.steps == 0 and not quiet:
         _print_time(done)
+
+
+def _print_plan(description):
+    from tehl_taichi.runs.summary.summary import planned_summary
+
+    print_json(planned_summary(description))
 
 
 def resume(

@@ -166,7 +166,7 @@ def test_a_scene_for_a_profile(column, tmp_path):
     assert read == "a line profile of 150 points" and missing == []
     f, = scene_file.load(tmp_path / "mine.toml").features
     assert (f.shape, f.lay, f.pixel, f.taper) == ("profile", "longitudinal", 2e-6, pytest.approx(37e-6))
-    with pytest.raises(SceneError, match="--pixel-y 1e-06 has no effect: .* is a line profile"):
+    with pytest.raises(SceneError, match="pixel_y 1e-06 has no effect: .* is a line profile"):
         scan_scene.new(tmp_path / "b.toml", "gear", column, "um", 2e-6, 1e-6)
     np.save(tmp_path / "map.npy", np.ones((20, 30)))
     done = tehl("new", "c.toml", "--scan", "map.npy", "--lay", "transverse", cwd=tmp_path)
