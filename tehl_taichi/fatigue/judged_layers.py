@@ -37,7 +37,7 @@ class JudgedPoint:
     @property
     def rank(self):
         """Order in which points decide."""
-        return standing(self.Fi, self.error), self.Fi
+        return order(self.Fi, self.error)
 
     @property
     def layer(self):
@@ -56,6 +56,11 @@ def standing(Fi, error):
     """Order in which indices decide, before their size: by state; above 1 those with a known error, because one is enough."""
     state = judged(Fi, error)
     return state, state == ABOVE and error is not None
+
+
+def order(Fi, error):
+    """Order in which indices decide: by :func:`standing`, then by their size."""
+    return standing(Fi, error), Fi
 
 
 def deciding(searches):

@@ -3,17 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-from tehl_taichi.fatigue.judged_layers import (
-    ABOVE,
-    BELOW,
-    WITHIN,
-    all_layers,
-    deciding,
-    error_of,
-    judged,
-    standing,
-    worst_layer,
-)
+from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, error_of, judged, order, worst_layer
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.number_text import FEW, index, value_text
@@ -82,7 +72,7 @@ def judged_places(rows, name, words):
 
 def worst(places):
     """The :class:`JudgedPlace` that decides."""
-    return max(places, key=lambda place: (standing(place.Fi, place.error), place.Fi))
+    return max(places, key=lambda place: order(place.Fi, place.error))
 
 
 def overlapping_places(places):

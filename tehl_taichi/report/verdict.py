@@ -11,6 +11,7 @@ from tehl_taichi.fatigue.judged_layers import (
     deciding_point,
     error_of,
     judged,
+    order,
     over,
     standing,
 )
@@ -192,8 +193,7 @@ def _worst_alone(searches):
 
 def state_and_index(named):
     """Order of (name, numbers) by what is known of the index, then by the index."""
-    Fi, error = named[1]["Fi_max"], error_of(named[1], "Fi_max")
-    return standing(Fi, error), Fi
+    return order(named[1]["Fi_max"], error_of(named[1], "Fi_max"))
 
 
 def _alone_words(searches):

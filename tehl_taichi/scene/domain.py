@@ -46,9 +46,14 @@ def with_chosen_ends(scene):
     found = {"x_min": lambda s, film: -_first(INLETS, lambda X: inlet_gap(s, X) / film, _least(scene)),
              "x_max": _outlet,
              "y_max": lambda s, film: LINE_SIDE if s.line else _first(SIDES, lambda Y: side_gap(s, Y) / film, GAPS)}
-    s = Scales.of(scene)
-    film = heated_film(scene) / s.h
+    s, film = _scales_and_film(scene)
     return replace(grid, **{key: AutomaticValue(found[key](s, film)) for key in automatic})
+
+
+def _scales_and_film(scene):
+    """(Scales, film by formula in a^2/R')."""
+    s = Scales.of(scene)
+    return s, heated_film(scene) / s.h
 
 
 def with_auto(values):
@@ -90,7 +95,7 @@ def within(scene, share):
     """
     if scene.grid.inlet == "starved":  # the domain is as long as the oil
         return scene
-    s, film = Scales.of(scene), heated_film(scene) / Scales.of(scene).h
+    s, film = _scales_and_film(scene)
     power = (LEFT[s.kind] * (PASSAGE if scene.transient else 1.0) / share) ** (2 / 3)
     needed = {"x_min": -_needed("x_min", INLETS, lambda X: inlet_gap(s, X) / film, max(_least(scene), INLET * power), share)}
     if not s.line:
@@ -120,8 +125,7 @@ def remedy(scene, film):
 
 def outlet(scene):
     """End of the domain (a) behind the rupture of the film, by the film formula."""
-    s = Scales.of(scene)
-    return _outlet(s, heated_film(scene) / s.h)
+    return _outlet(*_scales_and_film(scene))
 
 
 def farther(scene, film):
@@ -145,8 +149,7 @@ def too_short(scene):
     """Sentence about a fixed end of the domain that is too near for the film by formula, with a remedy; "" otherwise, and for
     a film that is too thick on any domain.
     """
-    g, s = scene.grid, Scales.of(scene)
-    film = heated_film(scene) / s.h
+    g, (s, film) = scene.grid, _scales_and_film(scene)
     gaps = {"x_min": inlet_gap(s, g.x_min), **({} if s.line else {"y_max": side_gap(s, g.y_max)})}
     gap, key = min((gaps[key], key) for key in gaps)
     if g.inlet == "starved" or isinstance(getattr(g, key), AutomaticValue) or 1 + gap / film > SHORT:
