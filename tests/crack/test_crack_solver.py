@@ -189,6 +189,22 @@ def test_bounded_forces_are_found_from_any_first_guess():
         np.testing.assert_allclose(found[0][0], found[1][0], atol=1e-9)
 
 
+@pytest.mark.parametrize("tries", [0, 8])
+def test_bounded_forces_of_long_cracks_take_few_steps(monkeypatch, tries):
+    """Forces that act on many neighbours alike: one exchange at a time took hours for 242 of them."""
+    apart, rng, solves = np.subtract.outer(np.arange(120), np.arange(120)), np.random.default_rng(7), []
+    M, plain = np.exp(-((apart / 4) ** 2)) + 1e-8 * np.eye(120), complementarity._forces
+    monkeypatch.setattr(complementarity, "TRIES", tries)
+    monkeypatch.setattr(complementarity, "_forces", lambda *given: solves.append(1) or plain(*given))
+    for _ in range(10):
+        gap, low, high = rng.standard_normal(120), np.where(rng.random(120) < 0.5, 0.0, -rng.random(120)), rng.random(120)
+        r, at = complementarity.solve_bounded(M, gap, low, high, np.full(120, complementarity.FREE))
+        w, small = gap + M @ r, 1e-9 * np.abs(gap).max()
+        assert (r >= low).all() and (r <= high).all() and np.abs(w[at == complementarity.FREE]).max(initial=0) < 1e-6
+        assert (w[at == complementarity.LOW] >= -small).all() and (w[at == complementarity.HIGH] <= small).all()
+    assert len(solves) < 10 * 3 * 120
+
+
 def test_friction_settles_where_exchanging_states_goes_round(monkeypatch):
     """All moments by bounds alone give what exchanged states give; a crack at 45 degrees pressed, sheared to and fro."""
     faces, turns = CrackFaces(slanted(45), 1.0, 24), np.linspace(0, 4 * np.pi, 40)
