@@ -67,12 +67,13 @@ def _doubts(scene, constants):
 def _show(result, passages, as_json):
     from tehl_cli.tables import answer, list_table
 
+    from tehl_taichi.fatigue import judged_surfaces
     from tehl_taichi.runs.summary.summary_rows import fatigue_rows, life_rows
 
-    _, *rest = result.summaries.items()  # the worse one first
+    _, *rest = result.summaries.items()  # that which decides first
     beside = dict(rest)
     if as_json:
         print_json({**result.summary, **passages, "by_surface": result.summaries})
     else:
         list_table("fatigue", ("quantity", "value"), [*fatigue_rows(result.summary, beside), *life_rows(passages)])
-        answer({"fatigue": result.summary, "fatigue_by_surface": result.summaries})
+        answer(judged_surfaces.parts(result.summaries))

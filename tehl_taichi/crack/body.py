@@ -21,9 +21,9 @@ def cracked_surface(scene, reader, name):
 
 
 def _worse_surface(scene, reader):
-    """Name of the surface that decides the verdict of a finished run; without a verdict, the one with the largest index."""
-    if found := by_surface(getattr(reader, "summary", {})):
-        return max(found, key=lambda one: assessment.largest(found[one]))
+    """Name of the surface that decides the verdict of a finished run; without a verdict, the one that would."""
+    if found := getattr(reader, "summary", {}).get("fatigue"):
+        return found.get("surface", "a")  # runs before 0.9 searched only body a
     if len(scene.judged) < 2:
         return next((s.name for s in scene.judged), scene.reference.name)
     return assessment.run(scene.replace(**{"fatigue.depths": []}), reader).summary["surface"]

@@ -63,7 +63,7 @@ class Snapshots:
 
 
 def run(scene, reader, progress=None, until=None, alone=True, sought=Sought.ALL, boxes=NO_BOXES):
-    """Search the fatigue of a passage; return the SearchResult of the worse body, with the other body's result in it.
+    """Search the fatigue of a passage; return the SearchResult of the body that decides, with the other body's result in it.
 
     The bodies are those of `scene.judged`. The points lie within 0.6 a of the first feature (0.3 a beyond the rim of larger
     features) and where features slide over the surface. The criterion and the moments (from_x to to_x) are those of
@@ -94,24 +94,13 @@ def run(scene, reader, progress=None, until=None, alone=True, sought=Sought.ALL,
     if wide:
         results = [_with_length(one, passage, top.layer, centres, boxes, _share(progress, count + n, total))
                    for n, (one, passage, top) in enumerate(zip(results, passages, averages))]
-    return worse_of(results)
+    return SearchResult.of_bodies(results)
 
 
 def _with_length(result, passage, top, centres, boxes, progress):
     """The result with the index of stresses averaged over fatigue.length; top: their Layer at the surface."""
     found = material_length.part(passage, top, centres, boxes.get(passage.surface.name), progress)
     return replace(result, summary={**result.summary, "averaged": found})
-
-
-def worse_of(results):
-    """The SearchResult with the largest index of one or two (a list), with the other one in it."""
-    worst, *others = sorted(results, key=lambda found: -largest(found.summary))
-    return replace(worst, other=others[0] if others else None)
-
-
-def largest(summary):
-    """Largest index of the summary of a search, at the surface or below it."""
-    return max(summary["Fi_max"], summary.get("below", summary)["Fi_max"])
 
 
 def _share(progress, n, count):

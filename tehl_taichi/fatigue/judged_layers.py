@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from tehl_taichi.fatigue import material_length
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.values.digits import micrometres
 
@@ -69,16 +68,22 @@ def deciding(searches):
     If the grid does not resolve every pressure, the part of the passage before that decides, unless averaged stresses settle
     the answer.
     """
-    if any(searched(one).get("rough") for one in searches.values()):
-        return searches, False
-    if all("resolved" in one for one in searches.values()) and not _settled(searches):
-        return {name: one["resolved"] for name, one in searches.items()}, True
+    found = {name: searched(one) for name, one in searches.items()}
+    if not any(one.get("rough") for one in found.values()) and all("resolved" in one for one in found.values()) \
+            and not _settled(searches):
+        return {name: one["resolved"] for name, one in found.items()}, True
     return searches, False
 
 
 def judged_point(searches):
     """The :class:`JudgedPoint` whose index decides the verdict on {surface: summary of its search}: the worst."""
     return max(judged_points(deciding(searches)[0]), key=lambda point: point.rank)
+
+
+def first_decides(searches):
+    """The same {surface: summary of its search}, the body that decides the verdict first."""
+    first = judged_point(searches).surface
+    return {first: searches[first], **searches}
 
 
 def worst_layer(searches):
@@ -96,7 +101,7 @@ def deciding_point(searches):
 
 def _settled(searches):
     """Whether averaged stresses give the errors that the pointwise ones lack, for all deciding numbers."""
-    averaged = any(length for one in searches.values() for _, length in material_length.leading(searched(one)))
+    averaged = any(length for one in searches.values() for _, length in leading(searched(one)))
     return averaged and all(error is not None for *_, error in all_layers(searches))
 
 
@@ -128,7 +133,22 @@ def _judged(fatigue, surface, name):
 def _points(fatigue, surface, name):
     """[JudgedPoint] at and below the surface."""
     return [JudgedPoint(f"{_where(part, surface)}{over(length)}", part, "Fi_max", name, length)
-            for part, length in material_length.leading(fatigue)]
+            for part, length in leading(fatigue)]
+
+
+def leading(found):
+    """Parts of a search's summary at and below the surface: [(part, length (m) over which its stresses are averaged, or 0)];
+    the averaged part if only its error is known.
+    """
+    wide = found.get("averaged", {})
+    pairs = [(found, wide), (found.get("below"), wide.get("below"))]
+    return [(own, 0.0) if not _alone_known(own, other) else (other, wide["length_m"]) for own, other in pairs if own]
+
+
+def _alone_known(own, other):
+    """Whether the error of the averaged index is known and that of the pointwise one is not."""
+    errors = [(part or {}).get("error", {}).get("Fi_max") for part in (own, other)]
+    return errors[0] is None and errors[1] is not None
 
 
 def _where(part, surface):

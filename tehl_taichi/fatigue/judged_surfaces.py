@@ -1,4 +1,4 @@
-"""Searches of the bodies in a summary, the worse one first; the body that is not searched."""
+"""Searches of the bodies in a summary, the one that decides the verdict first; the body that is not searched."""
 
 from tehl_taichi.errors import SceneError
 
@@ -10,11 +10,16 @@ def by_surface(summary):
     return summary.get("fatigue_by_surface", {summary["fatigue"].get("surface", "a"): summary["fatigue"]})
 
 
+def parts(searches):
+    """{part of a summary: value} of {surface: summary of its search}, the body that decides first; {} without any."""
+    return {"fatigue": next(iter(searches.values())), "fatigue_by_surface": searches} if searches else {}
+
+
 def resting(name):
     """The SceneError about a surface at rest."""
     return SceneError(f"surface {name} is at rest: its points are always under load and have no cycle; allowed: the other one")
 
 
 def others(summary):
-    """Searches without that of the worse body, which is the "fatigue" of the summary."""
+    """Searches without that of the body that decides, which is the "fatigue" of the summary."""
     return {name: found for name, found in by_surface(summary).items() if name != summary["fatigue"].get("surface", "a")}

@@ -39,18 +39,3 @@ def part(points, top, centres, box, progress):
     below = worst_of([found.worst for found in layers[1:]] + deep.worst)
     deepest = {"depth_m": below.depth, **below.summary(), **local_strength.of_point(passage, below)} if below else {}
     return {"length_m": scene.fatigue.length, **layers[0].worst.summary(), **({"below": deepest} if below else {})}
-
-
-def leading(found):
-    """Parts of a search's summary at and below the surface: [(part, length (m) over which its stresses are averaged, or 0)];
-    the averaged part if only its error is known.
-    """
-    wide = found.get("averaged", {})
-    pairs = [(found, wide), (found.get("below"), wide.get("below"))]
-    return [(own, 0.0) if not _alone_known(own, other) else (other, wide["length_m"]) for own, other in pairs if own]
-
-
-def _alone_known(own, other):
-    """Whether the error of the averaged index is known and that of the pointwise one is not."""
-    errors = [(part or {}).get("error", {}).get("Fi_max") for part in (own, other)]
-    return errors[0] is None and errors[1] is not None

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Any
 
+from tehl_taichi.fatigue.judged_layers import first_decides
 from tehl_taichi.fatigue.pressure_alone import constants_of, searched
 
 BOTH = ("feature_frame_x", "feature_frame_y")
@@ -72,7 +73,7 @@ class SearchResult:
     resolved : SearchResult
         Search of the moments while the grid resolves the pressure; None if it resolves all.
     other : SearchResult
-        Search of the other body, which is not worse; None if one body was searched.
+        Search of the other body, which does not decide the verdict; None if one body was searched.
 
     Examples
     --------
@@ -107,12 +108,27 @@ class SearchResult:
 
     @classmethod
     def from_arrays(cls, searches, array, first=""):
-        """SearchResult of a store: {surface: summary of its search}, the worse one first, and array(name): an array or None."""
+        """SearchResult of a store: {surface: summary of its search}, as they were stored, and array(name): an array or None."""
         summary, *others = searches.values()
         known = searched(summary).get("resolved")
         part = cls(known, **_named(array, first + PART)) if known else None
         other = cls.from_arrays({"": others[0]}, array, OTHER) if others else None
         return cls(summary, **_named(array, first), resolved=part, other=other)
+
+    @classmethod
+    def of_bodies(cls, results):
+        """SearchResult of one or two (a list), with the body first that decides the verdict by what is known so far."""
+        each = {one.summary.get("surface", "a"): one for one in results}
+        first, *others = (each[name] for name in first_decides({name: one.summary for name, one in each.items()}))
+        return replace(first, other=replace(others[0], other=None) if others else None)
+
+    def decided(self):
+        """The same result in the order of :meth:`of_bodies`, after its summaries got error bars."""
+        return self.of_bodies(list(self.by_surface.values()))
+
+    def with_summaries(self, summaries):
+        """The same result with other {surface: summary}."""
+        return self.of_bodies([replace(one, summary=summaries[name]) for name, one in self.by_surface.items()])
 
     def to_arrays(self):
         """{name: (values, dimensions, unit, text)} for a store."""

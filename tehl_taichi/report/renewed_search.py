@@ -3,6 +3,7 @@
 import dataclasses
 
 from tehl_taichi.errors import StoreError
+from tehl_taichi.fatigue import judged_surfaces
 from tehl_taichi.fatigue.overrides import changed
 from tehl_taichi.report import run_page
 from tehl_taichi.report.number_text import value_text
@@ -69,8 +70,8 @@ class SearchedStore:
         self.store, self.scene = store, scene
         self.attrs = {**store.attrs, "scene_toml": scene_file.dumps(scene)}
         stored = {key: value for key, value in store.summary.items() if key != "life"}
-        self.summary = {**stored, "left_out": scene.left_out(), "fatigue": next(iter(searches.values())),
-                        "fatigue_by_surface": searches, **life.part(searches, scene.fatigue)}
+        self.summary = {**stored, "left_out": scene.left_out(), **judged_surfaces.parts(searches),
+                        **life.part(searches, scene.fatigue)}
         self.warnings = result_warnings.warnings(self, self.summary)
 
     def __getattr__(self, name):

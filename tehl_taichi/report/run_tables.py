@@ -2,8 +2,7 @@
 
 import json
 
-from tehl_taichi.fatigue import material_length
-from tehl_taichi.fatigue.judged_layers import deciding, over
+from tehl_taichi.fatigue.judged_layers import deciding, leading, over
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.march import quantities
 from tehl_taichi.report.document import facts, sentences, table
@@ -95,7 +94,7 @@ def worst_points(fatigue, scene):
     """Table of the worst points at and below the surface."""
     points = [("surface", {"depth_m": 0.0, **fatigue}), *([("below it", fatigue["below"])] if "below" in fatigue else [])]
     points += [(f"{'below it' if 'depth_m' in part else 'surface'}{over(length)}", {"depth_m": 0.0, **part})
-               for part, length in material_length.leading(fatigue) if length]
+               for part, length in leading(fatigue) if length]
     rows = [(text.format(feature_word(scene)), *(_of_point(point, key, unit) for _, point in points))
             for text, key, unit in POINT]
     return table(("critical point", *(where for where, _ in points)), rows + _in_file(scene, [point for _, point in points]))

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-from tehl_taichi.fatigue.judged_layers import deciding, judged_point
+from tehl_taichi.fatigue.judged_layers import deciding
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.fatigue.search_result import SearchResult
@@ -42,7 +42,7 @@ def searches(store, result=None):
     decides is first. result: of the search, by default that of the store.
     """
     scene, result = store.scene, result or SearchResult.from_arrays(by_surface(store.summary), store.map)
-    body = _body(result) if result.other else ""
+    body = f", body {result.numbers['surface']}, the worse one" if result.other else ""
     over = when(scene) + body + ", pressure alone" * bool(why_none(result.summary))
     if not (part := result.part):
         return [Search(scene, result, over)]
@@ -50,8 +50,3 @@ def searches(store, result=None):
             Search(scene, result, f"{over}, later pressures not resolved by the grid", short=over)]
     return both if deciding(result.summaries)[1] else both[::-1]
 
-
-def _body(result):
-    """Text of the body of a search of both; the answer may rest on the other one, whose index is smaller over all moments."""
-    own, decides = result.numbers["surface"], judged_point(result.summaries).surface
-    return f", body {own}, " + ("the worse one" if own == decides else f"while the answer rests on body {decides}")

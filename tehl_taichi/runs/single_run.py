@@ -207,23 +207,23 @@ def _finish(saved, state, steady, clock, progress, coarse_answers_until):
     run_in = _march(saved, state, progress)
     until = _resolved(saved)
     coarse_answers = coarse_answers_until(until)
-    alone = _fatigue(saved, until, progress)
-    found, arrays = (alone.summaries, alone.to_arrays()) if alone else ({}, None)
+    found = _fatigue(saved, until, progress)
     steel = _run_in_part(saved.scene, run_in) if run_in else {}
-    _add_contact_alone(found, steady["steady_contact_alone"])
-    sure = {name: one for name, one in found.items() if not why_none(one)}
+    sure = {name: one for name, one in _with_contact_alone(found, steady).items() if not why_none(one)}
     domain = DomainError.from_values(steady["steady_domain"]).of_passage(saved.scene, saved)
     notify = functools.partial(progress.stage, ERRORS)
     passage = coarse_runs.errors(saved.scene, saved, sure, lambda: coarse_answers(notify), domain, steel.get("run_in"))
+    arrays = {}
     if saved.scene.zooms and len(saved) >= zoom_room.FEWEST:
         from tehl_taichi.runs import zoomed_run
 
-        passage, finer, more = zoomed_run.refined(saved, passage, alone if sure else None, domain, progress)
-        found, arrays = (finer, more) if sure else (found, {**(arrays or {}), **more})
-        _add_contact_alone(found, steady["steady_contact_alone"])
-    arrays = _with_steel(run_in, found, arrays) if run_in else arrays
+        passage, finer, arrays = zoomed_run.refined(saved, passage, found if sure else None, domain, progress)
+        found = finer or found
+    searches = _with_contact_alone(found, steady)
+    arrays |= _steel_arrays(run_in, searches) if run_in else {}
     extra = {**clock.times(), **steady, **passage, **steel, "passage_sides": domain.sides}
-    saved.finish(summarise(saved, extra, found), arrays)
+    summary = summarise(saved, extra, searches)  # adds the error bars, by which a body decides
+    saved.finish(summary, {**(found.decided().to_arrays() if found else {}), **arrays})
     return Run(saved)
 
 
@@ -262,14 +262,14 @@ def _run_in_part(scene, run_in):
     return {"run_in": run_in_numbers.numbers(scene, run_in)}
 
 
-def _with_steel(run_in, found, arrays):
-    """Arrays with those of the run-in added; found: {surface: summary}, which get a note on whether steel still yields."""
+def _steel_arrays(run_in, found):
+    """Arrays of the run-in; found: {surface: summary}, which get a note on whether steel still yields."""
     from tehl_taichi.plastic import run_in_numbers
 
     for name, new in run_in.records[-1]["new_by_surface"].items():
         if part := searched(found.get(name, {})).get("von_mises"):
             part["yields"] = new > 0
-    return {**(arrays or {}), **run_in_numbers.arrays(run_in)}
+    return run_in_numbers.arrays(run_in)
 
 
 def _march_once(saved, progress, state, changes=()):
@@ -320,14 +320,15 @@ def _kept_states(scene, state):
     return KeptStates(state)
 
 
-def _add_contact_alone(found, alone):
-    """Add the results of the steady start, with error bars, to {surface: summary}.
-
-    alone: {surface: numbers of the smooth body}, {} for runs before 0.9. An index of the pressure alone keeps its own numbers.
+def _with_contact_alone(found, steady):
+    """{surface: summary} of a SearchResult (or None), with the numbers of the smooth body of the steady start (none for runs
+    before 0.9). An index of the pressure alone keeps its own numbers.
     """
-    for name in found.keys() & alone.keys():
-        if not why_none(found[name]):
-            found[name]["contact_alone"] = alone[name]
+    searches, alone = found.summaries if found else {}, steady["steady_contact_alone"]
+    for name in searches.keys() & alone.keys():
+        if not why_none(searches[name]):
+            searches[name]["contact_alone"] = alone[name]
+    return searches
 
 
 @contextlib.contextmanager

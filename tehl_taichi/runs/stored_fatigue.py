@@ -1,7 +1,6 @@
 """Fatigue of a stored passage, if its tractions allow an index."""
 
 import functools
-from dataclasses import replace
 from typing import cast
 
 from tehl_taichi.fatigue import assessment, fatigue
@@ -25,5 +24,4 @@ def assessed(store, scene, progress=None, until=None, threads=None, reader=None,
     found = cast(SearchResult, searched)  # of a store, not of single points
     if not why:
         return found
-    worst, *others = (replace(one, summary=without_index(one.summary, why)) for one in found.by_surface.values())
-    return replace(worst, other=others[0] if others else None)
+    return found.with_summaries({name: without_index(one, why) for name, one in found.summaries.items()})

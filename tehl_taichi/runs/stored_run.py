@@ -145,7 +145,7 @@ class Run:
 
             found = stored_window.refined(self.store, scene, found, progress, until)
         fatigue_errors.add_errors(found.summaries, scene.fatigue, self.store)
-        return found
+        return found.decided()
 
     def crack(self, **options: Any) -> "CrackResult":
         """Follow cracks under its loads, see :func:`tehl_taichi.crack`."""

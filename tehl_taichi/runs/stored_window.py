@@ -1,7 +1,5 @@
 """Fatigue of a finished run with its zoom windows, from the stored fields of the windows."""
 
-from dataclasses import replace
-
 from tehl_taichi.march.zoom.read_once import ReadOnce
 from tehl_taichi.march.zoom.zoomed_passage import ZoomedPassage
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
@@ -21,7 +19,7 @@ def refined(store, scene, alone, progress=None, until=None):
         return alone
     reader = ZoomedReader(ReadOnce(store), [_passage(window) for window in windows], scene.symmetric)
     found = zoomed_run.searched(store, scene, reader, zoomed_points.ends(scene, alone), progress_of(progress), until)
-    return _with_summaries(zoomed_points.deeper(found, alone), _completed(found.summaries, alone.summaries))
+    return zoomed_points.deeper(found, alone).with_summaries(_completed(found.summaries, alone.summaries))
 
 
 def _passage(window):
@@ -38,9 +36,3 @@ def _completed(summaries, run):
     found = zoomed_points.completed(summaries, run)
     return {name: {**one, **{key: run[name][key] for key in ("contact_alone",) if key in run[name]}}
             for name, one in found.items()}
-
-
-def _with_summaries(found, summaries):
-    """The SearchResult with other summaries {surface: summary} of its bodies."""
-    other = found.other and replace(found.other, summary=summaries[found.other.summary["surface"]])
-    return replace(found, summary=summaries[found.summary["surface"]], other=other)

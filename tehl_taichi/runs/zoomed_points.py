@@ -102,8 +102,7 @@ def deeper(found, run):
     """The SearchResult `found` of some points, with the stresses of the run (SearchResult) at the depths below them, and with
     its smooth contact."""
     others = run.by_surface
-    return replace(_of_run(found, others[found.numbers["surface"]]),
-                   other=found.other and _of_run(found.other, others[found.other.numbers["surface"]]))
+    return found.of_bodies([_of_run(one, others[name]) for name, one in found.by_surface.items()])
 
 
 def _of_run(found, run):

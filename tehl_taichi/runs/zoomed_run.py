@@ -42,16 +42,16 @@ class ZoomLevel:
 
 
 def refined(saved, passage, alone, domain, progress):
-    """Add the windows of a finished run; return (error bars and numbers, {surface: summary}, arrays).
+    """Add the windows of a finished run; return (error bars and numbers, SearchResult or None, arrays of the windows).
 
     saved: store of the run. passage: its error bars, see :func:`corrected`. alone: its SearchResult, None without an index.
     domain: the DomainError of the run (:mod:`tehl_taichi.march.accuracy.domain_error`).
     """
     windows = levels(saved, progress)
-    found, arrays_found = search(saved, windows, alone, progress) if alone else ({}, {})
+    found = search(saved, windows, alone, progress) if alone else None
     both = corrected(saved, windows, alone.summaries if alone else {}, passage, domain)
-    numbers = summary(saved, windows, both, found)
-    return {**both, "zoom": numbers}, found, {**arrays_found, **arrays(windows)}
+    numbers = summary(saved, windows, both, windows[-1].searches)
+    return {**both, "zoom": numbers}, found, arrays(windows)
 
 
 def levels(saved, progress):
@@ -67,7 +67,7 @@ def levels(saved, progress):
 
 
 def search(saved, found, alone, progress):
-    """Search the fatigue of every level; return ({surface: summary}, arrays) of the finest one.
+    """Search the fatigue of every level; return the SearchResult of the finest one.
 
     alone: SearchResult of the run without windows, which determines the searched points.
     """
@@ -80,7 +80,7 @@ def search(saved, found, alone, progress):
         level.reader.kept_heat, level.reader.tables = finest.reader.kept_heat, finest.reader.tables
         their = searched(saved, saved.scene, level.reader, boxes, progress, sought=Sought.WORST)
         level.searches = zoomed_points.completed(their.summaries, alone.summaries)
-    return finest.searches, zoomed_points.deeper(result, alone).to_arrays()
+    return zoomed_points.deeper(result, alone).with_summaries(finest.searches)
 
 
 def searched(saved, scene, reader, boxes, progress, until=None, sought=Sought.ALL):
@@ -162,10 +162,10 @@ def _size(scene, w):
 
 
 def _largest(search):
-    from tehl_taichi.fatigue.assessment import largest
     from tehl_taichi.fatigue.pressure_alone import searched
 
-    return largest(searched(search))
+    found = searched(search)
+    return max(found["Fi_max"], found.get("below", found)["Fi_max"])
 
 
 def _width(scene, w):

@@ -6,12 +6,11 @@ import pytest
 from fatigue.stress.test_material_points import CELLS, Formula, gear
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.fatigue import assessment, judged_layers
-from tehl_taichi.fatigue.judged_surfaces import by_surface, others
+from tehl_taichi.fatigue import assessment
+from tehl_taichi.fatigue.judged_surfaces import by_surface, others, parts
 from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.fatigue.stress import histories
 from tehl_taichi.fatigue.stress.histories import StressHistories
-from tehl_taichi.report import searches as page_searches
 from tehl_taichi.report import verdict
 from tehl_taichi.runs.flank import flank_columns
 from tehl_taichi.runs.summary import summary_rows
@@ -123,20 +122,20 @@ def test_the_worse_body_leads_and_the_other_is_kept():
     assert rows["worse body"] == first and any(f"({second})" in what for what in rows)
 
 
-def test_the_body_on_which_the_verdict_rests_is_named_where_the_other_has_more_in_the_whole_passage():
+def test_the_body_that_decides_leads_where_the_other_has_more_in_the_whole_passage():
     """Body a has more in moments that the grid does not resolve; b decides, in tables, on the screen and on pages."""
     early = {name: {**made_results.fatigue(Fi, None), "error": {"Fi_max": 0.01}, "to_x_a": 0.5} for name, Fi in
              (("a", 0.7), ("b", 0.9))}
-    both = {name: {**made_results.fatigue(Fi, None), "surface": name, "error": {"Fi_max": None}, "resolved": early[name]}
-            for name, Fi in (("a", 1.5), ("b", 1.3))}
-    for searches, decides in ((both, "b"), ({name: made_results.fatigue(Fi, None) | {"surface": name} for name, Fi in
-                                             (("a", 1.5), ("b", 1.3))}, "a")):
-        summary = {"fatigue": searches["a"], "fatigue_by_surface": searches}
-        assert flank_columns.judged_body(summary) == judged_layers.judged_point(searches).surface == decides
-        row = dict(summary_rows.fatigue_rows(searches["a"], others(summary)))["worse body"]
-        assert row == "a" + " (the verdict rests on body b)" * (decides == "b")
-        words = page_searches._body(SearchResult.from_arrays(searches, lambda name: None))
-        assert words == ", body a, " + {"a": "the worse one", "b": "while the answer rests on body b"}[decides]
+    whole = {name: {**made_results.fatigue(Fi, None), "surface": name, "error": {"Fi_max": None}}
+             for name, Fi in (("a", 1.5), ("b", 1.3))}
+    resolved = {name: {**one, "resolved": early[name]} for name, one in whole.items()}
+    for searches, decides in ((resolved, "b"), (whole, "a")):
+        found = SearchResult.of_bodies([SearchResult(one, Fi=one["Fi_max"]) for one in searches.values()])
+        assert list(found.summaries)[0] == decides and found.Fi == searches[decides]["Fi_max"]
+        assert found.other.other is None and found.other.Fi == searches[found.other.summary["surface"]]["Fi_max"]
+        summary = parts(found.summaries)
+        assert summary["fatigue"] is searches[decides] and flank_columns.judged_body(summary) == decides
+        assert dict(summary_rows.fatigue_rows(summary["fatigue"], others(summary)))["worse body"] == decides
 
 
 @pytest.mark.parametrize("Fi_a, Fi_b, said", [((1.2, 0.01), (0.9, 0.01), "Yes: the fatigue limit is exceeded at surface a."),

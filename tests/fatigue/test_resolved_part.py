@@ -10,7 +10,7 @@ from rolling import Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment
-from tehl_taichi.fatigue.search_result import PART
+from tehl_taichi.fatigue.search_result import PART, SearchResult
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.report import scene_text, verdict
 from tehl_taichi.runs import zoom_need
@@ -197,7 +197,7 @@ def test_the_report_says_which_moments_count():
 def test_fatigue_of_a_run_is_told_apart_like_the_run(tmp_path, monkeypatch):
     """With other constants, up to the same position; a run that resolves everything has no such part."""
     asked = []
-    monkeypatch.setattr(assessment, "run", lambda *args: asked.append(args[3]) or SimpleNamespace(summaries={}))
+    monkeypatch.setattr(assessment, "run", lambda *args: asked.append(args[3]) or SearchResult(fatigue()))
     done = tehl.open(made_results.run(tmp_path / "made.zarr", search=fatigue()))
     for until in (-0.25, None):
         monkeypatch.setattr(coarse_runs, "resolved", lambda *_, until=until: until)

@@ -7,6 +7,7 @@ import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.engine import runtime
+from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.store.store import Store
 
@@ -14,6 +15,7 @@ pytestmark = pytest.mark.usefixtures("taichi_cpu")
 # a ridge: one dimension; no sliding, so that its pressures ripple on this grid (0.7 MPa; 0 where oil slips at its limit)
 RIDGE = tehl.scene("gear").replace(**{"feature.shape": "ridge", "grid.nx": 64, "grid.ny": 8, "thermal.on": False,
                                       "srr": 0.0, "time.steps": 4})
+EACH = coarse_runs.FI, coarse_runs.BELOW, coarse_runs.RESOLVED, coarse_runs.RESOLVED_BELOW
 
 
 class Heard(tehl.Progress):
@@ -319,3 +321,19 @@ def test_a_completed_run_is_kept_gone_on_with_or_made(done, tmp_path):
         run_or_resume(RIDGE, tmp_path / "c.zarr", progress=Heard(stop=3))
     assert run_or_resume(RIDGE, tmp_path / "c.zarr", progress=heard).finished and heard.steps[-1] == 4
     assert "steady start" not in [name for name, *_ in heard.stages]  # that it had
+
+
+def test_a_body_that_decides_by_its_error_bar_leads_in_numbers_and_arrays(taichi_cpu, tmp_path, monkeypatch):
+    """Of two indices below 1, the one that is 1 within its error decides, though it is the smaller one."""
+    scene = RIDGE.replace(**{"srr": -0.2, "time.steps": 20, "fatigue.endurance": 4e9})
+    found = {}
+    for name in "ab":
+        bars = {f"{name}:{key}": 5.0 for key in EACH}
+        monkeypatch.setattr(coarse_runs, "errors", lambda *_, bars=bars: {"passage_error": bars, "passage_unknown": {}})
+        run = found[name] = tehl.run(scene, tmp_path / f"{name}.zarr")
+        again = tehl.fatigue(run, endurance=4.1e9)
+        assert run.summary["fatigue"]["surface"] == again.summary["surface"] == name
+        assert run.summary["fatigue"] == run.summary["fatigue_by_surface"][name] and run.summary["fatigue"]["Fi_max"] < 1
+        assert run.store.map("Fi").max() == pytest.approx(run.summary["fatigue"]["Fi_max"], rel=1e-6)
+    np.testing.assert_array_equal(found["a"].store.map("Fi"), found["b"].store.map("other_Fi"))
+    assert found["a"].store.map("Fi").max() != found["b"].store.map("Fi").max()

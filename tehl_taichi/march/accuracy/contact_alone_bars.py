@@ -2,6 +2,7 @@
 
 from tehl_taichi.fatigue import contact_alone
 from tehl_taichi.fatigue.assessment import Snapshots
+from tehl_taichi.fatigue.judged_layers import first_decides
 from tehl_taichi.march.accuracy.coarse_runs import MISES
 from tehl_taichi.march.accuracy.domain_error import widened
 from tehl_taichi.march.accuracy.error_bars import GridReading, bars
@@ -13,14 +14,14 @@ NEAR = 2.0  # cells: deeper, a peak of the pressure a few cells wide changes lit
 
 def searches(scene, first):
     """{surface: numbers of :func:`tehl_taichi.fatigue.contact_alone.search`, with "error" and "unknown"} of the moving bodies,
-    the worse one first; {} if fatigue is off.
+    the one that decides first; {} if fatigue is off.
 
     first: snapshot of the steady start, see :class:`tehl_taichi.march.snapshot.Snapshot`.
     """
     if not scene.fatigue.on:
         return {}
     found = {surface.name: _searched(scene, surface, first) for surface in scene.judged}
-    return dict(sorted(found.items(), key=lambda one: -one[1]["Fi_max"]))
+    return first_decides(found) if found else {}
 
 
 def _searched(scene, surface, first):

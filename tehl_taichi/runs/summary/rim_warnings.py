@@ -1,5 +1,6 @@
 """Warnings about worst points at the rim of a measured map: the rim may cause them."""
 
+from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.scene.feature_wording import feature_word
 from tehl_taichi.scene.scales import Scales
@@ -8,20 +9,21 @@ NEAR = 2  # cells of the grid: so near to an edge that a stress is of both its s
 
 
 def rims(store, summary):
-    """One sentence for every worst point at the rim of a map, each place once; the resolved part first."""
-    found = searched(summary.get("fatigue", {}))
-    seen = set()
-    for part, of in ((found.get("resolved", {}), " of the resolved part"), (found, "")):
-        for point, where in ((part, "at the surface"), (part.get("below", {}), "below the surface")):
-            place = point.get("x_m"), point.get("y_m"), where
-            if None not in place and place not in seen:
-                yield from _of_point(store.scene, point, f"the critical point {where}{of}")
-            seen.add(place)
+    """One sentence for every worst point at the rim of a map on its body, each place once; the resolved part first."""
+    seen, searches = set(), by_surface(summary)
+    for name, found in ((name, searched(one)) for name, one in searches.items()):
+        surface = f"surface {name}" if len(searches) > 1 else "the surface"
+        for part, of in ((found.get("resolved", {}), " of the resolved part"), (found, "")):
+            for point, where in ((part, f"at {surface}"), (part.get("below", {}), f"below {surface}")):
+                place = point.get("x_m"), point.get("y_m"), where
+                if None not in place and place not in seen:
+                    yield from _of_point(store.scene, name, point, f"the critical point {where}{of}")
+                seen.add(place)
 
 
-def _of_point(scene, point, name):
+def _of_point(scene, surface, point, name):
     near = NEAR * max(Scales.of(scene).cell(scene.grid))
-    for f in (f for f in scene.features if f.kind.measured):
+    for f in (f for f in scene.features if f.kind.measured and f.surface == surface):
         distance, axis = min(zip(f.to_rim(point["x_m"] - f.x, point["y_m"] - f.y), "xy"))
         if -near <= distance <= max(f.taper, near):
             yield f"{name} lies {_side(f, distance, feature_word(scene))}; {_advice(f, axis)}"

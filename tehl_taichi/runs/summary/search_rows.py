@@ -4,7 +4,6 @@ import math
 from dataclasses import replace
 from types import MappingProxyType
 
-from tehl_taichi.fatigue.judged_layers import judged_point
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.runs.summary.summary_row import SummaryRow, at_depth, depth_text, row_of
 from tehl_taichi.scene.feature_wording import range_words
@@ -27,12 +26,8 @@ def rows_of_fatigue(f, beside=MappingProxyType({})):
 
 
 def _worse(f, beside):
-    """Row of the body with the largest index of the whole passage, whose rows follow; the verdict may rest on the other one."""
-    if not beside:
-        return []
-    decides = judged_point({f["surface"]: f, **beside}).surface
-    note = f" (the verdict rests on body {decides})" * (decides != f["surface"] and not why_none(f))
-    return [SummaryRow("worse body", f["surface"], note=note, part=SURFACE)]
+    """Row of the body that decides, whose rows follow, if both were searched."""
+    return [SummaryRow("worse body", f["surface"], part=SURFACE)] if beside else []
 
 
 def _distribution_rows(f):

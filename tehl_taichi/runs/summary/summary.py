@@ -3,7 +3,8 @@
 import numpy as np
 
 from tehl_taichi import __version__
-from tehl_taichi.fatigue import index_statistics
+from tehl_taichi.fatigue import index_statistics, judged_surfaces
+from tehl_taichi.fatigue.judged_layers import first_decides
 from tehl_taichi.laws import conduction
 from tehl_taichi.laws.law import beyond
 from tehl_taichi.march import quantities
@@ -31,7 +32,7 @@ def summarise(store, extra, searches=None):
     :func:`tehl_taichi.march.accuracy.contact_alone_bars.searches`); passage_error, passage_unknown and passage_parts;
     passage_sides (:func:`tehl_taichi.march.accuracy.side_change.side_change`); zoom (see
     :func:`tehl_taichi.runs.zoomed_run.summary`) and run_in (see :mod:`tehl_taichi.plastic.run_in_numbers`), both optional.
-    searches: {surface: summary of its fatigue search}, the worse one first, or None.
+    searches: {surface: summary of its fatigue search}, or None.
     """
     scene = store.scene
     scales, zoom = Scales.of(scene), extra.get("zoom", {})
@@ -49,13 +50,13 @@ def summarise(store, extra, searches=None):
         out["contact_alone"], out["contact_alone_by_surface"] = {"surface": worse, **alone[worse]}, alone
     if "run_in" in extra:
         out["run_in"] = extra["run_in"]
-    if searches:
-        out["fatigue"], out["fatigue_by_surface"] = next(iter(searches.values())), searches
     known, unknown, of_it = (extra.get(f"passage_{what}", {}) for what in ("error", "unknown", "parts"))
-    for part, names in _parts(out):
+    for part, names in _parts({**out, "fatigue_by_surface": searches or {}}):
         part["error"] = {name: known.get(bar) for name, bar in names.items()}
         part["error_parts"] = {name: of_it[bar] for name, bar in names.items() if bar in of_it}
         part |= unknown_of({name: unknown[bar] for name, bar in names.items() if bar in unknown})
+    if searches:
+        out |= judged_surfaces.parts(first_decides(searches))
     out |= {**_von_mises(out), **({"zoom": zoom} if zoom else {})}
     out |= life.part(out.get("fatigue_by_surface", {}), scene.fatigue)
     out["work"] = _work(store)

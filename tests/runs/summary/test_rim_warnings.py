@@ -29,6 +29,15 @@ def said(of, x=0.0, y=0.0, **parts):
     return list(rim_warnings.rims(of, {"fatigue": {**fatigue(), "x_m": x, "y_m": y, "below": {}, **parts}}))
 
 
+def test_a_point_is_at_the_rim_of_a_map_on_its_own_body(tmp_path):
+    """Body b, which decides, slides over the map: a place on it says nothing about the rim; that of body a is told."""
+    at_rim = {**fatigue(), "x_m": 0.0, "y_m": 64e-6, "below": {}}
+    of, both = store(tmp_path), {name: {**at_rim, "surface": name} for name in "ba"}
+    told = list(rim_warnings.rims(of, {"fatigue": both["b"], "fatigue_by_surface": both}))
+    assert len(told) == 1 and told[0].startswith("the critical point at surface a lies 36 um inside the rim")
+    assert list(rim_warnings.rims(of, {"fatigue": both["b"], "fatigue_by_surface": {"b": both["b"]}})) == []
+
+
 @pytest.mark.parametrize("x, y, words", [
     (0.0, 64e-6, "36 um inside the rim along which the scan ends, within its taper of 40 um"),
     (0.0, -103e-6, "3 um outside the rim along which the scan ends, after a taper of 40 um"),
