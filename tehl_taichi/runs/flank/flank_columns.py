@@ -5,7 +5,7 @@ import io
 from dataclasses import dataclass
 from typing import Callable
 
-from tehl_taichi.fatigue.judged_layers import judged_point, worst_layer
+from tehl_taichi.fatigue.judged_layers import worst_layer
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.march import quantities
@@ -76,20 +76,12 @@ def plotted_value(at, p_H, summary, what):
 
 
 def judged_index(summary):
-    """(Fi, its error bar) that decides about a position; (None, None) without an index, and for rough surfaces, for which a
-    percentile in another column decides.
-    """
+    """(Fi, its error bar) that decides about a position, for rough surfaces a percentile; (None, None) without an index."""
     found = value_at(summary, "fatigue")
-    if not found or why_none(found) or found.get("rough"):
+    if not found or why_none(found):
         return None, None
     _, Fi, error = worst_layer(by_surface(summary))
     return Fi, error
-
-
-def judged_body(summary):
-    """Name of the body whose index decides about a position, None without a search."""
-    found = value_at(summary, "fatigue")
-    return judged_point(by_surface(summary)).surface if found and not why_none(found) else value_at(found, "surface")
 
 
 class _DecidingIndex:
@@ -147,7 +139,7 @@ COLUMNS = (
     TableColumn("von_mises_max_Pa", "Mises GPa", 1e-9, ".3f", _PassageValue("von_mises", "max_Pa"), PASSAGE),
     TableColumn("passages", "passages", 1, ".2g", _SummaryValue("life", "passages"), PASSAGE),
     TableColumn("hours", "hours", 1, ".2g", _SummaryValue("life", "hours"), PASSAGE),
-    TableColumn("worse_body", "body", 1, "", lambda at, p_H, summary: judged_body(summary), PASSAGE),
+    TableColumn("worse_body", "body", 1, "", lambda at, p_H, summary: value_at(summary, "fatigue", "surface"), PASSAGE),
 )
 
 

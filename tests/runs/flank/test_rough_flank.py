@@ -12,7 +12,7 @@ from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.scene import surface_roughness
 from tehl_taichi.view.figures.figure_style import FigureStyle
 
-LEADING = ["Fi p99", "Fi median", "Fi > 1, %", "p99 below", "Fi", "Fi below", "body"]
+LEADING = ["Fi p99", "Fi median", "Fi > 1, %", "p99 below", "Fi", "Fi below", "Fi judged", "body"]
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +27,8 @@ def rough(tmp_path_factory):
 
 def test_percentiles_and_share_lead_in_the_table(rough):
     heads, lines = flank_columns.tables(rough.rows)["while the feature passes"]
-    assert heads[2:] == LEADING and lines[0][2:] == ["1.20 ± 0.10", "0.700", "12.0 ± 5.0", "1.400", "1.700", "2.000", "b"]
+    assert heads[2:] == LEADING and lines[0][2:] == ["1.20 ± 0.10", "0.700", "12.0 ± 5.0", "1.400", "1.700", "2.000",
+                                                      "1.20 ± 0.10", "b"]
     assert lines[2][2:] == [""] * len(LEADING)
     heads, lines = flank_columns.tables(rough.rows)["steady film"]
     assert heads[-2:] == ["Sq um", "lambda"] and lines[1][-2:] == ["0.400", "1.50"]
@@ -38,7 +39,7 @@ def test_the_files_have_them_with_their_errors(rough):
         first, second, _ = csv.DictReader(file)
     assert [float(first[name]) for name in ("Fi_p99", "error_Fi_p99", "share_above_1", "error_share_above_1", "Sq_m")] == \
         [1.2, 0.1, 0.12, 0.05, 4e-7]
-    assert float(second["Fi_p99"]) == 0.7 and second["Fi_p99_below"] == "1.4"
+    assert float(second["Fi_p99"]) == 0.7 and second["Fi_p99_below"] == second["Fi_judged"] == "1.4"
 
 
 def test_figure_and_page_show_them(rough):
