@@ -13,7 +13,8 @@ from tehl_taichi.profiles import measure
 from tehl_taichi import __version__
 from tehl_taichi.disk import files
 from tehl_taichi.errors import Error
-from tehl_taichi.fatigue import assessment, material_length
+from tehl_taichi.fatigue import assessment
+from tehl_taichi.fatigue.judged_layers import leading
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.march.accuracy.domain_error import DomainError
@@ -214,7 +215,7 @@ def _parts(body, found, known):
     with_bars = {what: {**part, "error": {"Fi_max": known.get(coarse_runs.of_surface(body, errors[what]))}}
                  for what, part in parts.items() if part}
     nested = _nested(with_bars)
-    whole = [(part, part["Fi_max"], part["error"]["Fi_max"]) for part, _ in material_length.leading(nested)]
+    whole = [(part, part["Fi_max"], part["error"]["Fi_max"]) for part, _ in leading(nested)]
     return [_better(one, early, known.get(coarse_runs.of_surface(body, key))) for one, early, key in
             zip(whole, _resolved(found) or [None, None], (coarse_runs.RESOLVED, coarse_runs.RESOLVED_BELOW))]
 

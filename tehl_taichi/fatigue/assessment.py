@@ -94,7 +94,7 @@ def run(scene, reader, progress=None, until=None, alone=True, sought=Sought.ALL,
     if wide:
         results = [_with_length(one, passage, top.layer, centres, boxes, _share(progress, count + n, total))
                    for n, (one, passage, top) in enumerate(zip(results, passages, averages))]
-    return SearchResult.of_bodies(results)
+    return SearchResult.joined(results).decided()
 
 
 def _with_length(result, passage, top, centres, boxes, progress):

@@ -81,7 +81,7 @@ def judged_point(searches):
 
 
 def first_decides(searches):
-    """The same {surface: summary of its search}, the body that decides the verdict first."""
+    """Searches {surface: summary}, the body that decides the verdict first."""
     first = judged_point(searches).surface
     return {first: searches[first], **searches}
 

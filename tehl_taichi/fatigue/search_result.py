@@ -116,19 +116,19 @@ class SearchResult:
         return cls(summary, **_named(array, first), resolved=part, other=other)
 
     @classmethod
-    def of_bodies(cls, results):
-        """SearchResult of one or two (a list), with the body first that decides the verdict by what is known so far."""
-        each = {one.summary.get("surface", "a"): one for one in results}
-        first, *others = (each[name] for name in first_decides({name: one.summary for name, one in each.items()}))
+    def joined(cls, results):
+        """The first SearchResult of one or two (a list), with the other one in it."""
+        first, *others = results
         return replace(first, other=replace(others[0], other=None) if others else None)
 
     def decided(self):
-        """The same result in the order of :meth:`of_bodies`, after its summaries got error bars."""
-        return self.of_bodies(list(self.by_surface.values()))
+        """Result with the body first that decides the verdict, by the errors that are known so far."""
+        each = self.by_surface
+        return self.joined([each[name] for name in first_decides(self.summaries)])
 
     def with_summaries(self, summaries):
-        """The same result with other {surface: summary}."""
-        return self.of_bodies([replace(one, summary=summaries[name]) for name, one in self.by_surface.items()])
+        """Result with other {surface: summary}."""
+        return self.joined([replace(one, summary=summaries[name]) for name, one in self.by_surface.items()])
 
     def to_arrays(self):
         """{name: (values, dimensions, unit, text)} for a store."""

@@ -102,7 +102,7 @@ def deeper(found, run):
     """The SearchResult `found` of some points, with the stresses of the run (SearchResult) at the depths below them, and with
     its smooth contact."""
     others = run.by_surface
-    return found.of_bodies([_of_run(one, others[name]) for name, one in found.by_surface.items()])
+    return found.joined([_of_run(one, others[name]) for name, one in found.by_surface.items()])
 
 
 def _of_run(found, run):

@@ -129,7 +129,7 @@ def test_the_body_that_decides_leads_where_the_other_has_more_in_the_whole_passa
              for name, Fi in (("a", 1.5), ("b", 1.3))}
     resolved = {name: {**one, "resolved": early[name]} for name, one in whole.items()}
     for searches, decides in ((resolved, "b"), (whole, "a")):
-        found = SearchResult.of_bodies([SearchResult(one, Fi=one["Fi_max"]) for one in searches.values()])
+        found = SearchResult.joined([SearchResult(one, Fi=one["Fi_max"]) for one in searches.values()]).decided()
         assert list(found.summaries)[0] == decides and found.Fi == searches[decides]["Fi_max"]
         assert found.other.other is None and found.other.Fi == searches[found.other.summary["surface"]]["Fi_max"]
         summary = parts(found.summaries)
