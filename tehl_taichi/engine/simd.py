@@ -129,15 +129,25 @@ def below(S: ti.template(), row, k, n2):
 
 @ti.func
 def face_weights(s, ny):
-    """Weights of the y fluxes at j + 1/2 and j - 1/2 in the balance of row j: mirrored at 0, zero beyond the last row."""
+    """Weights of the y fluxes at j + 1/2 and j - 1/2 in the balance of row j: mirrored at the first and the last row."""
     up, down = V(0.0), V(0.0)
     for u in ti.static(range(W)):
         j = s * W + u
         if j < ny:
             up[u] = 2.0 if j == 0 else 1.0
         if j > 0 and j <= ny:
-            down[u] = 1.0
+            down[u] = 2.0 if j == ny else 1.0
     return up, down
+
+
+@ti.func
+def row_shares(s, ny):
+    """Part of a cell along y for which each row of block s stands: half in the first and the last row, which are mirrors."""
+    out = V(1.0)
+    for u in ti.static(range(W)):
+        if s * W + u == 0 or s * W + u == ny:
+            out[u] = 0.5
+    return out
 
 
 @ti.func

@@ -122,7 +122,9 @@ def outflow(Z: ti.template(), at: ti.template(), nz, n, step: ti.template()):
         for u in ti.static(range(W)):
             j = at.s * W + u
             if j == 0:
-                out[u] += upper[u] * step.inv_y  # odd about the plane of symmetry
+                out[u] += upper[u] * step.inv_y  # odd about a mirror
+            elif j == at.ny:
+                out[u] -= lower[u] * step.inv_y
             elif j < at.ny:
                 out[u] += 0.5 * (upper[u] - lower[u]) * step.inv_y
     return -out

@@ -1,7 +1,7 @@
 """Complementarity, active sets and balances of the present state: partial sums per block, added in a fixed order."""
 
 from tehl_taichi.engine.language import ti
-from tehl_taichi.engine.simd import Flat, LinearFlat, Table, V, W, cells, face_weights, lanes_in, lanes_out
+from tehl_taichi.engine.simd import Flat, LinearFlat, Table, V, W, cells, lanes_in, lanes_out, row_shares
 from tehl_taichi.pressure.fields import DRY, FLOOR, K0, MASK, RHO, SCALE, TOUCH, WEIGHT, D, H, P, R
 
 PHI2, LOAD, OUTFLOW, COUETTE = range(4)  # columns of the sums of each block
@@ -30,8 +30,7 @@ def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table, alone: ti.templ
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         floor, inv = G[0, FLOOR], 1 / G[0, K0]
-        down = face_weights(s, ny)[1]
-        half = 0.5 + 0.5 * down  # the row y = 0 stands for half a cell
+        share = row_shares(s, ny)
         phi2, load_sum, mass = V(0.0), V(0.0), V(0.0)
         for i in range(nx + 1):
             k = off + s * (nx + 1) + i
@@ -41,9 +40,9 @@ def sums(S: ti.template(), G: Table, middle: ti.i32, out: Table, alone: ti.templ
             load_sum += S[WEIGHT, k] * S[P, k]
             # not P > 0: a pressure of 1e-12 left on a ruptured node would count its whole residual
             touch, dry = sets(a, b, c, S[MASK, k])
-            mass += half * S[R, k] * (1.0 - touch) * (1.0 - dry)
+            mass += share * S[R, k] * (1.0 - touch) * (1.0 - dry)
         m = off + s * (nx + 1) + middle
-        couette = half * S[RHO, m] * S[H, m]
+        couette = ti.select(S[MASK, m] > 0.0, share, V(1.0)) * S[RHO, m] * S[H, m]  # given rows lie on no mirror
         for u in ti.static(range(W)):
             if s * W + u > ny:
                 couette[u] = 0.0
@@ -62,7 +61,7 @@ def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: Li
     ti.loop_config(block_dim=1, serialize=alone)
     for s in range(ny // W + 1):
         floor, inv = G[0, FLOOR], 1 / G[0, K0]
-        half = 0.5 + 0.5 * face_weights(s, ny)[1]
+        share = row_shares(s, ny)
         count = V(0.0)
         for i in range(nx + 1):
             k = off + s * (nx + 1) + i
@@ -72,7 +71,7 @@ def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: Li
             scale = ti.select(dry > 0.0, V(1.0), ti.min(S[D, k], cap))
             S[TOUCH, k], S[DRY, k], J[SCALE, k] = touch, dry, ti.cast(scale, J.dtype)
             lanes_out(b, k - off, ti.select(dry > 0.0, -p * inside, -S[R, k] / scale * inside))
-            lanes_out(mass_row, k - off, half * scale * (1.0 - dry) * (1.0 - touch))
+            lanes_out(mass_row, k - off, share * scale * (1.0 - dry) * (1.0 - touch))
             count += touch
         touching[s, 0] = count.sum()
 

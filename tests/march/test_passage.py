@@ -176,10 +176,10 @@ def test_a_feature_on_the_other_side_of_the_axis_has_the_mirrored_passage():
     """Near the sides, too: with one of them a mirror, the other one a row without end, the film differed by up to 7 %."""
     both = [passage(**{"feature.y": y, "grid.nx": 64, "grid.ny": 16}) for y in (0.2e-3, -0.2e-3)]
     for one, other in zip(*both):
-        assert one.scalars["p_max_Pa"] == pytest.approx(other.scalars["p_max_Pa"], rel=2e-4)
-        np.testing.assert_allclose(one.fields["film"], other.fields["film"][:, ::-1], rtol=0.015)
+        assert one.scalars["p_max_Pa"] == pytest.approx(other.scalars["p_max_Pa"], rel=2e-5)
+        np.testing.assert_allclose(one.fields["film"], other.fields["film"][:, ::-1], rtol=2e-3)
         P = one.fields["pressure"]
-        np.testing.assert_allclose(P, other.fields["pressure"][:, ::-1], rtol=0, atol=4e-3 * P.max())
+        np.testing.assert_allclose(P, other.fields["pressure"][:, ::-1], rtol=0, atol=1e-4 * P.max())
 
 
 def test_mirror_symmetry_of_friction():

@@ -40,14 +40,14 @@ def test_lengths_and_speeds_twice_as_large_change_no_pressure(y):
 
 
 def test_a_passage_in_the_mirror():
-    """To what the edges differ in: the first row of a whole domain is a plane of symmetry far away, the last goes on."""
+    """Both sides of a whole domain are mirrors, as the side of a half domain is."""
     scene = tehl.scene("gear").replace(srr=-0.3, **{**SMALL, "feature.y": 6e-5, "time.steps": 16})
     one, other = passage(scene)[-1], passage(scene.replace(**{"feature.y": -6e-5}))[-1]
     for name in ("pressure", "film", "traction_x_a", "traction_x_b"):
         scale = np.abs(one.fields[name]).max()
-        np.testing.assert_allclose(one.fields[name], other.fields[name][:, ::-1], atol=0.01 * scale, err_msg=name)
+        np.testing.assert_allclose(one.fields[name], other.fields[name][:, ::-1], atol=2e-4 * scale, err_msg=name)
     np.testing.assert_allclose(one.fields["traction_y_a"], -other.fields["traction_y_a"][:, ::-1],
-                               atol=0.01 * np.abs(one.fields["traction_x_a"]).max())
+                               atol=2e-4 * np.abs(one.fields["traction_x_a"]).max())
 
 
 @pytest.mark.parametrize("nx, ny", [(128, 16), (64, 64)])

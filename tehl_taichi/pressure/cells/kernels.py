@@ -19,6 +19,7 @@ from tehl_taichi.engine.simd import (
     lanes_in,
     lanes_out,
     repeated,
+    row_shares,
 )
 from tehl_taichi.laws.density import rho_ratio
 from tehl_taichi.laws.rheology import DP
@@ -306,12 +307,12 @@ def choose_sets(S: ti.template(), J: ti.template(), G: Table, cap: ti.f64, b: Li
     for q in range((ny // W + 1) * (nx + 1)):
         k, s = off + q, q // (nx + 1)
         p, r, gap = parts(S, k, G[0, FLOOR], 1 / G[0, K0])
-        half, inside = 0.5 + 0.5 * face_weights(s, ny)[1], S[MASK, k]
+        share, inside = row_shares(s, ny), S[MASK, k]
         touch, dry = sets(p, r, gap, inside)
         scale = ti.select(dry > 0.0, V(1.0), ti.min(S[D, k], cap))
         S[TOUCH, k], S[DRY, k], J[SCALE, k] = touch, dry, ti.cast(scale, J.dtype)
         lanes_out(b, q, ti.select(dry > 0.0, -p * inside, -S[R, k] / scale * inside))
-        lanes_out(mass_row, q, half * scale * (1.0 - dry) * (1.0 - touch))
+        lanes_out(mass_row, q, share * scale * (1.0 - dry) * (1.0 - touch))
         if touch.sum() > 0.0:
             touching[0, 0] = 1.0
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl_taichi.engine.language import ti
 from tehl_taichi.engine.resident import there
-from tehl_taichi.engine.simd import LinearFlat, Table, V, W, cells, face_weights, lanes_in
+from tehl_taichi.engine.simd import LinearFlat, Table, V, W, cells, lanes_in, row_shares
 from tehl_taichi.pressure import balances
 from tehl_taichi.pressure.fields import FLOOR, K0, MASK, RHO, WEIGHT, H, P, R
 from tehl_taichi.pressure.linear.cells.cell_gmres import CellGmres
@@ -25,17 +25,18 @@ def sums(S: ti.template(), G: Table, middle: ti.i32, parts: Table, groups: Table
             q = c + n * CHUNKS
             if q < columns:
                 k, s = off + q, q // (nx + 1)
-                half = 0.5 + 0.5 * face_weights(s, ny)[1]
+                share = row_shares(s, ny)
                 x, y, z = balances.parts(S, k, G[0, FLOOR], 1 / G[0, K0])
                 phi = ti.select(S[MASK, k] > 0.0, ti.min(ti.min(x, y), z), V(0.0))
                 touch, dry = balances.sets(x, y, z, S[MASK, k])
                 phi2 += phi * phi
                 load += S[WEIGHT, k] * S[P, k]
-                mass += half * S[R, k] * (1.0 - touch) * (1.0 - dry)
+                mass += share * S[R, k] * (1.0 - touch) * (1.0 - dry)
                 if q % (nx + 1) == middle:
+                    share = ti.select(S[MASK, k] > 0.0, share, V(1.0))  # given rows lie on no mirror
                     for u in ti.static(range(W)):
                         if s * W + u <= ny:
-                            couette[u] += half[u] * S[RHO, k][u] * S[H, k][u]
+                            couette[u] += share[u] * S[RHO, k][u] * S[H, k][u]
         parts[balances.PHI2, c], parts[balances.LOAD, c] = phi2.sum(), load.sum()
         parts[balances.OUTFLOW, c], parts[balances.COUETTE, c] = mass.sum(), couette.sum()
     add_up(parts, groups, totals, 0, balances.SUMS)
