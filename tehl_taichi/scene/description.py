@@ -14,12 +14,12 @@ from tehl_taichi.scene import (
     domain,
     domain_warnings,
     film_formula,
-    idle_keys,
     moving_surfaces,
     named_oils,
     oil,
     oil_range,
     overrides,
+    replaced_keys,
     resolution,
     run_in,
     scales,
@@ -117,6 +117,7 @@ class Scene:
     zoom: Zoom = Zoom()
     note: str = field(default="", compare=False)
     user_keys = None  # full keys that the user gave: those without effect are reported; None: those of unusual values
+    replaced = ()  # warnings about values of the user that other keys replaced
 
     def __repr__(self):
         s, o, count = scales.Scales.of(self), self.operation, len(self.features)
@@ -464,11 +465,14 @@ class Scene:
         changes = aliases.resolve_named(changes)
         changed = Scene.from_dict(overrides.apply_changes(self.to_dict(), changes))
         overrides.check_effect(changed, changes)
-        return changed.with_user_keys(idle_keys.user_keys(self) | idle_keys.changed_keys(changed, changes))
+        return replaced_keys.with_changes(self, changed, changes)
 
-    def with_user_keys(self, keys: Iterable[str]) -> "Scene":
-        """This scene, with a record of the keys that the user gave (see :mod:`tehl_taichi.scene.idle_keys`)."""
+    def with_user_keys(self, keys: Iterable[str], replaced: Iterable[str] = ()) -> "Scene":
+        """This scene, with a record of the keys that the user gave (see :mod:`tehl_taichi.scene.idle_keys`) and warnings about
+        replaced ones (see :mod:`tehl_taichi.scene.replaced_keys`).
+        """
         object.__setattr__(self, "user_keys", frozenset(keys))
+        object.__setattr__(self, "replaced", tuple(replaced))
         self.__dict__.pop("_warnings", None)  # they depend on these keys
         return self
 

@@ -1,5 +1,6 @@
 """Scene files (TOML): reading with a base scene, writing with every value, the commented template."""
 
+import contextlib
 import dataclasses
 import json
 import math
@@ -7,7 +8,18 @@ import os
 from pathlib import Path
 
 from tehl_taichi.disk import user_files
-from tehl_taichi.scene import Scene, SceneError, aliases, idle_keys, named_oils, named_steels, overrides, scene, toml_file
+from tehl_taichi.scene import (
+    Scene,
+    SceneError,
+    aliases,
+    idle_keys,
+    named_oils,
+    named_steels,
+    overrides,
+    replaced_keys,
+    scene,
+    toml_file,
+)
 from tehl_taichi.scene.description import SECTIONS, TOP
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.oil import Oil
@@ -75,11 +87,19 @@ def from_data(data, name, changes=()):
     own = _tables(data)
     u_m = data["operation"].get("u_m") if isinstance(data.get("operation"), dict) else None
     described = _spelled_out(_on_base(base, {"name": name, **data}))
+    before = _valid_alone(described)
     found = Scene.from_dict(overrides.apply_changes(described, changes))
     overrides.check_effect(found, changes)
     if not changes.keys() & set(aliases.LOADS):
         _check_speed(found, u_m)
-    return found.with_user_keys(idle_keys.given_keys(found, own) | idle_keys.changed_keys(found, changes))
+    before = before or found
+    return replaced_keys.with_changes(before.with_user_keys(idle_keys.given_keys(before, own)), found, changes)
+
+
+def _valid_alone(described):
+    """Scene of a file before its changes, None if it needs them."""
+    with contextlib.suppress(SceneError):
+        return Scene.from_dict(described)
 
 
 def _tables(data):

@@ -9,6 +9,7 @@ from tehl_taichi.scene import (
     keys,
     named_steels,
     oil_range,
+    replaced_keys,
     resolution,
     scales,
     slow_surfaces,
@@ -136,4 +137,4 @@ CHECKS = {resolution.warnings: "cells", domain_warnings.warnings: "room", thin_f
           named_steels.doubts: "steel", cut_passage: "cut", thinned: "moments", doubtful_features: "feature",
           unusual: "unit", idle_keys.doubts: "idle", wide_domain: "inlet", short_domain: "domain",
           stiff_oil.warnings: "frozen", counted_twice: "residual", beyond_relation: "hardness", left_out_of_window: "window",
-          thick_film.warnings: "thick", slow_surfaces.warnings: "slow"}
+          thick_film.warnings: "thick", slow_surfaces.warnings: "slow", replaced_keys.warnings: "replaced"}

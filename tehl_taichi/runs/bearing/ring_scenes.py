@@ -23,7 +23,7 @@ def base_of(scene, feature=None):
     data["time"]["steady_only"] = True
     if feature is not None:
         data["feature"] = [feature]
-    return Scene.from_dict(data)
+    return _with_material_of(scene, Scene.from_dict(data))
 
 
 def check_free(changes):
@@ -81,4 +81,9 @@ def bodies(changes):
 
 def smooth(base):
     """Scene without its features."""
-    return dataclasses.replace(base, features=()).with_user_keys(())
+    return _with_material_of(base, dataclasses.replace(base, features=()))
+
+
+def _with_material_of(base, made):
+    """`made` with the record of the keys of oil and bodies that the user gave to `base`: it has another contact."""
+    return made.with_user_keys((key for key in idle_keys.user_keys(base) if key.startswith(("oil.", "bodies."))), base.replaced)

@@ -60,7 +60,7 @@ def _as_it_moves(base, at):
         return base
     features = [dataclasses.replace(f, x=-f.x, **({"mirror_x": not f.mirror_x} if "mirror_x" in f.kind.uses else {}))
                 for f in base.features]
-    return dataclasses.replace(base, features=tuple(features)).with_user_keys(idle_keys.user_keys(base))
+    return dataclasses.replace(base, features=tuple(features)).with_user_keys(idle_keys.user_keys(base), base.replaced)
 
 
 def _with_own_grid(*position):

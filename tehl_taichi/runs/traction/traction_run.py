@@ -56,7 +56,8 @@ def traction_plan(scene, srr=SRRS, temperature=None, speed=None, changes=None, l
 def _smooth(scene):
     """The scene without its features; keys of a passage, which it no longer has, do not count as given by the user."""
     smooth = dataclasses.replace(scene, features=())
-    return smooth.with_user_keys(idle_keys.user_keys(scene) - (idle_keys.idle(smooth).keys() - idle_keys.idle(scene).keys()))
+    own = idle_keys.user_keys(scene) - (idle_keys.idle(smooth).keys() - idle_keys.idle(scene).keys())
+    return smooth.with_user_keys(own, scene.replaced)
 
 
 def _is_one(values):
