@@ -5,6 +5,7 @@ import tomllib
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
+from tehl_taichi.values.checks import near_file
 from tehl_taichi.values.coerce import shown
 
 COMMA = re.compile(r"\s*[\w.\"'-]+\s*=\s*([-+]?\d+),(\d+(?:[eE][-+]?\d+)?)\s*(?:#.*)?")  # key = -0,2
@@ -20,7 +21,8 @@ def read(path, what):
         text = files.text(path)
         return tomllib.loads(text)
     except (OSError, UnicodeDecodeError) as error:
-        raise SceneError(f"cannot read {what} file {path}: {getattr(error, 'strerror', None) or error}") from None
+        raise SceneError(f"cannot read {what} file {path}: {getattr(error, 'strerror', None) or error}"
+                         f"{near_file(path)}") from None
     except RecursionError:
         raise SceneError(f"{path} nests tables or lists too deeply; a {what} has two levels") from None
     except ValueError as error:  # of TOML, and of Python for whole numbers of more than 4300 digits

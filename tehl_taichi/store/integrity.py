@@ -18,6 +18,7 @@ from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.scene.feature import SHAPES
 from tehl_taichi.scene.sections import NEWER, SECTIONS
 from tehl_taichi.store import attributes, stored_maps
+from tehl_taichi.values.checks import near_file
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.escape import typed
 
@@ -58,7 +59,7 @@ def root_of(path):
         arrays = root["consolidated_metadata"]["metadata"]
     except FileNotFoundError:
         raise StoreError(f"{path} is not a store of tehl run: " +
-                         (f"it has no {ROOT}" if path.is_dir() else "the folder does not exist")) from None
+                         (f"it has no {ROOT}" if path.is_dir() else f"the folder does not exist{near_file(path)}")) from None
     except OSError as error:
         raise StoreError(f"{path} is not a store of tehl run: {error.strerror or error}") from None
     except (ValueError, KeyError, TypeError, RecursionError):

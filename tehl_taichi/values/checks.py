@@ -14,6 +14,7 @@ from tehl_taichi.values.unit_hints import hint
 
 HUGE = 10**300  # whole numbers beyond it are no floats
 MANY = 20  # names that a message lists at most
+ALIKE = 0.6  # of the letters of a file name, with one that may be meant: my.toml and my
 CHANGES = "{key: value}, as in {'srr': 0.1}"  # form of an argument
 ALL_KEYS = "`tehl new FILE`"  # writes a scene file with every key
 
@@ -70,9 +71,20 @@ def integer(where, value, low, high):
 
 
 def missing_file(name):
-    """Refuse an unknown name that is a path. Raises SceneError."""
-    if "." in name or "/" in name:
-        raise SceneError(f"{name} does not exist")
+    """Refuse an unknown name that is a path, or that of a TOML file without its ending. Raises SceneError."""
+    if "." in name or "/" in name or os.path.isfile(f"{name}.toml"):
+        raise SceneError(f"{name} does not exist{near_file(name)}")
+
+
+def near_file(path):
+    """Text ' (did you mean ...?)' with the file or folder whose path is nearest to a missing one, or nothing."""
+    folder, name = os.path.split(path)
+    beside: list[str] = []
+    if not os.path.lexists(path):
+        with contextlib.suppress(OSError):
+            beside = [one for one in os.listdir(folder or ".") if not one.startswith(".")]
+    close = difflib.get_close_matches(name, beside, n=1, cutoff=ALIKE)
+    return f" (did you mean {shown(os.path.join(folder, close[0]))}?)" if close else ""
 
 
 def choice(where, value, allowed):

@@ -357,12 +357,29 @@ def test_a_message_names_the_option_or_the_argument(tmp_path, monkeypatch):
     assert str(tehl.Error("`tehl run a --out NEW`; use --force")) == "`tehl run a --out NEW`; use force=True"
 
 
-@pytest.mark.parametrize("command", ["run", "flank", "sweep", "traction"])
+@pytest.mark.parametrize("command", ["run", "flank", "sweep", "traction", "bearing", "roller"])
 @pytest.mark.parametrize("name", ["my.tml", "runs/none"])
 def test_a_missing_file_is_not_taken_for_a_misspelt_name(command, name):
     more = {"sweep": ("--over", "srr=0.1"), "traction": ("--srr", 0.1)}.get(command, ())
     found = here(command, name, *more)
     assert (found.returncode, found.stderr) == (2, f"tehl: {name} does not exist\n")
+
+
+@pytest.mark.parametrize("words", ["run mine.tml", "run min.toml", "run mine", "bearing mine.tml", "bearing my.toml",
+                                   "flank mine.tml", "flank mne.toml", "cam min.toml", "sweep mine.tml --over srr=0.1",
+                                   "show mine", "run gear --set fatigue.table=mine.txt", "bearing 6206 --scan mine.tom"])
+def test_a_missing_file_is_refused_with_the_nearest_one(tmp_path, words):
+    (tmp_path / "mine.toml").write_text("")
+    found = here(*words.split(), cwd=tmp_path)
+    assert found.returncode == 2 and "did you mean 'mine.toml'?" in found.stderr
+    assert re.search("does not exist|No such file|neither a file", found.stderr)
+
+
+def test_a_bearing_file_may_have_any_ending(tmp_path):
+    (tmp_path / "mine.tml").write_text('base = "6206"')
+    (tmp_path / "6206").write_text("")  # no file hides a designation
+    for name in ("mine.tml", "6206"):
+        assert here("bearing", name, "--no-run", "--no-figure", cwd=tmp_path).returncode == 0
 
 
 def test_suggested_commands_take_names_with_spaces(tmp_path):

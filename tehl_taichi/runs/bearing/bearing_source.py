@@ -48,7 +48,7 @@ def bearing_source(what, given):
         changed = dataclasses.replace(what, **_known(given))
         return BearingSource("bearing", changed, "given")
     path = path_of("bearing", what)
-    if ending(path) == ".toml":
+    if ending(path) == ".toml" or path.is_file() and not key_of(str(what)):
         return _from_file(path, given)
     return _named(str(what), given)
 

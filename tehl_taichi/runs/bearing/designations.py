@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.bearing.rolling_bearing import BALL
-from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.checks import missing_file, nearest
 
 INCH = 25.4e-3
 CASE = "Case Western Reserve University, Bearing Data Center, bearing information (SKF, inches)"
@@ -77,6 +77,7 @@ def designation(name):
     """The :class:`Designation` with this name; its note says which suffix is ignored. Raises SceneError."""
     key, suffix = _parts(name)
     if not key:
+        missing_file(name)
         raise SceneError(f"the inner dimensions of bearing {name!r} are not in the table of this program"
                          f"{nearest(name.lower(), DESIGNATIONS)}; known: {', '.join(DESIGNATIONS)}; or {MEANT}")
     if WORD.search(suffix):

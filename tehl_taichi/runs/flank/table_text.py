@@ -5,6 +5,7 @@ import re
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values import units
+from tehl_taichi.values.checks import near_file
 from tehl_taichi.values.text_table import rows_of, without_empty_end, wrong_length
 
 WITH_UNIT = re.compile(r"(\w+)\s*[/\[(]\s*(.+?)[\])]?\s*")  # load/N, load (N), load [N]
@@ -22,7 +23,7 @@ def rows(path):
     try:
         heads, *lines = [row for _, row in rows_of(files.text(path))] or [[]]
     except (OSError, ValueError) as error:
-        raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}") from None
+        raise SceneError(f"cannot read table {path}: {getattr(error, 'strerror', None) or error}{near_file(path)}") from None
     columns = [_column(head) for head in without_empty_end(heads)]
     names = [name for name, _ in columns]
     if number := next(filter(units.BARE.fullmatch, names), ""):

@@ -7,7 +7,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.strength import table
 from tehl_taichi.scene.strength.profiles import PROFILES
 from tehl_taichi.scene.strength.table import DEPTH, HARDNESS, KAPPA, LIMIT, RESIDUAL, YIELD
-from tehl_taichi.values.checks import nearest
+from tehl_taichi.values.checks import near_file, nearest
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.quantity import Number
 from tehl_taichi.values.text_table import rows_of, without_empty_end, wrong_length
@@ -49,8 +49,8 @@ def check(found):
 def _read(where, path, place):
     """Text of the file. Raises SceneError."""
     if not path.is_file():
-        raise SceneError(f"{where} is neither a file nor a built-in profile{nearest(place, PROFILES)}; built in: "
-                         f"{', '.join(PROFILES)}")
+        meant = nearest(place, PROFILES) or near_file(place)
+        raise SceneError(f"{where} is neither a file nor a built-in profile{meant}; built in: {', '.join(PROFILES)}")
     try:
         return files.content(path, LARGEST).decode("utf-8-sig")
     except UnicodeDecodeError:

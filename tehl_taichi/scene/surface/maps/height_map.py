@@ -18,6 +18,7 @@ from tehl_taichi.errors import SceneError, brief
 from tehl_taichi.scene.surface.maps import coordinates, instrument_files, line_profiles, text_heights
 from tehl_taichi.scene.surface.maps.stated_values import Stated
 from tehl_taichi.values.arrays import floats
+from tehl_taichi.values.checks import near_file
 from tehl_taichi.values.file_ending import ending
 
 ROWS = "rows"
@@ -99,7 +100,8 @@ def table_of(file):
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a file of heights (.csv, .txt, .asc, .npy)")
     if not path.is_file():
-        raise SceneError(f"feature.file = {str(file)!r} {'is not a file' if path.exists() else 'does not exist'}")
+        why = "is not a file" if path.exists() else f"does not exist{near_file(file)}"
+        raise SceneError(f"feature.file = {str(file)!r} {why}")
     table = _load(path)
     profile = line_profiles.heights_of(table.values) is not None
     found = table.of_points() if not profile and coordinates.is_narrow(table.values) else None
