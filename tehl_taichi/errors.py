@@ -5,19 +5,28 @@ import re
 
 FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 4
 
-# Options that are arguments in Python; outside of whole commands, which stand in backquotes
+# Options that are arguments or keys of a scene in Python; outside of whole commands, which stand in backquotes
 ARGUMENTS = {"--out": "path", "--force": "force=True", "--pixel-y": "pixel_y", "--threads-per-worker": "threads_per_worker",
+             "--thermal": "thermal.on=True", "--steady": "time.steady_only=True", "--grid": "grid.nx", "--map": "shown",
              **{f"--{name}": name for name in ("workers", "threads", "scheduler", "keep", "samples", "lay", "residual",
-                                               "format")}}
-OPTION = re.compile(r"(`[^`]*`)|--[a-z]+(?:-[a-z]+)*")
+                                               "format", "over")}}
+VALUES = ((re.compile(r"--grid (\d+)x(\d+)"), r"grid.nx=\1 and grid.ny=\2"), (re.compile(r"--grid (\d+)"), r"grid.nx=\1"),
+          (re.compile(r"--zoom (\d+)"), r"zoom.factor=\1"), (re.compile(r"--precision (\w+)"), r"numerics.precision='\1'"),
+          (re.compile(r"--set (?=[\w.]+=)"), ""))
+COMMAND, OPTION = re.compile(r"(`[^`]*`)"), re.compile(r"--[a-z]+(?:-[a-z]+)*")
 _typed = False
 
 
+def are_options_typed():
+    """Whether errors name the options of the command line: workers take this over from the process that started them."""
+    return _typed
+
+
 @contextlib.contextmanager
-def typed_options():
+def typed_options(typed=True):
     """Errors raised within name the options of the command line, otherwise the arguments of Python."""
     global _typed
-    before, _typed = _typed, True
+    before, _typed = _typed, typed
     try:
         yield
     finally:
@@ -27,7 +36,15 @@ def typed_options():
 def _for_reader(text):
     if _typed or not isinstance(text, str) or "--" not in text:
         return text
-    return OPTION.sub(lambda found: found[1] or ARGUMENTS.get(found[0], found[0]), text)
+    parts = COMMAND.split(text)
+    parts[::2] = map(_as_arguments, parts[::2])
+    return "".join(parts)
+
+
+def _as_arguments(text):
+    for option, argument in VALUES:
+        text = option.sub(argument, text)
+    return OPTION.sub(lambda found: ARGUMENTS.get(found[0], found[0]), text)
 
 
 class Error(Exception):

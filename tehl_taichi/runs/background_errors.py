@@ -19,6 +19,7 @@ import time
 
 from tehl_taichi.disk import memory_limit
 from tehl_taichi.engine import cores, runtime
+from tehl_taichi.errors import are_options_typed, typed_options
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.runs.run_in_memory import run_in_bytes
 from tehl_taichi.runs.sweep import job
@@ -96,7 +97,7 @@ def _in_background(scene, threads):
 def _started(scene, read, threads):
     """Start the process with so many threads; read: end of the pipe for `until`."""
     with tempfile.TemporaryFile() as scenes:
-        pickle.dump((os.getpid(), read, scene, threads), scenes)
+        pickle.dump((os.getpid(), read, scene, threads, are_options_typed()), scenes)
         scenes.seek(0)
         # a session of its own: Ctrl-C is for the run, which ends it
         return subprocess.Popen([sys.executable, "-c", "from tehl_taichi.runs.background_errors import serve; serve()"],
@@ -136,14 +137,15 @@ def _output_of(process):
 def serve():
     """Main function of the background process.
 
-    It reads from stdin the number of the run's process, the pipe for `until`, the scene and the number of threads, and writes
-    its results to stdout.
+    It reads from stdin the number of the run's process, the pipe for `until`, the scene, the number of threads and
+    whether options are typed, and writes its results to stdout.
     """
-    run, pipe, scene, threads = pickle.load(sys.stdin.buffer)
+    run, pipe, scene, threads, typed = pickle.load(sys.stdin.buffer)
     threading.Thread(target=_end_with, args=(run,), daemon=True).start()
     _give_way()
     runtime.start(threads=threads)
-    print(json.dumps(coarse_runs.answers(scene, until=functools.cache(functools.partial(_heard, pipe)))), flush=True)
+    with typed_options(typed):
+        print(json.dumps(coarse_runs.answers(scene, until=functools.cache(functools.partial(_heard, pipe)))), flush=True)
     runtime.leave(0)
 
 

@@ -1,8 +1,10 @@
 """What people run into first: brackets, endings, full disks, edited stores, other types in Python: one sentence each."""
 
+import ast
 import errno
 import json
 import os
+import pickle
 import re
 import shlex
 import shutil
@@ -21,8 +23,9 @@ from small_stores import store
 from tehl_cli.fatigue_options import _depths
 
 import tehl_taichi as tehl
-from tehl_taichi.errors import brief
-from tehl_taichi.runs.sweep import case_records, study_file, sweeping
+from tehl_taichi import errors
+from tehl_taichi.errors import brief, typed_options
+from tehl_taichi.runs.sweep import case, case_records, study_file, sweeping
 from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.runs.sweep.study_table import Study
 from tehl_taichi.scene import scene_file
@@ -357,6 +360,40 @@ def test_a_message_names_the_option_or_the_argument(tmp_path, monkeypatch):
         assert option in said and argument in str(raised.value) and "--" not in str(raised.value)
         assert said == f"tehl: {str(raised.value).replace(argument, option)}\n"
     assert str(tehl.Error("`tehl run a --out NEW`; use --force")) == "`tehl run a --out NEW`; use force=True"
+    assert str(tehl.Error("use --grid 128x32, --zoom 4, --set time.steps=3 or --precision f64")) == (
+        "use grid.nx=128 and grid.ny=32, zoom.factor=4, time.steps=3 or numerics.precision='f64'")
+    with pytest.raises(tehl.SceneError, match="^over needs a key"):
+        tehl.sweep("gear", {})
+
+
+@pytest.mark.parametrize("typed, word", [(True, "another --out"), (False, "another path")])
+def test_a_worker_names_what_its_sweep_names(tmp_path, typed, word):
+    """A job is made in the process of the command; its reasons are words of another one, where nothing was typed."""
+    (tmp_path / "mine").write_text("mine")
+    with typed_options(typed):
+        job = case.CaseJob(GEAR, str(tmp_path / "mine"))
+    with typed_options(not typed):
+        assert word in case.run_case(pickle.loads(pickle.dumps(job)))["reason"]
+
+
+ERRORS = {name for name, one in vars(errors).items() if isinstance(one, type) and issubclass(one, Exception)} | {"Busy"}
+
+
+def raised_texts(tree):
+    """Texts in the arguments of errors; `%` stands for a value."""
+    calls = (node for node in ast.walk(tree) if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ERRORS)
+    parts = [part for call in calls for part in ast.walk(call)]
+    formatted = [part.values for part in parts if isinstance(part, ast.JoinedStr)]
+    inside = {id(one) for values in formatted for one in values}
+    alone = [[part] for part in parts if isinstance(part, ast.Constant) and id(part) not in inside]
+    return ["".join(str(one.value) if isinstance(one, ast.Constant) else "%" for one in values)
+            for values in (*formatted, *alone)]
+
+
+def test_every_option_in_an_error_has_a_name_in_python():
+    """Outside of whole commands in backquotes."""
+    texts = [text for path in Path(tehl.__file__).parent.rglob("*.py") for text in raised_texts(ast.parse(path.read_text()))]
+    assert len(texts) > 300 and [text for text in texts if "--" in re.sub("`[^`]*`", "", str(tehl.Error(text)))] == []
 
 
 @pytest.mark.parametrize("command", ["run", "flank", "sweep", "traction", "bearing", "roller"])

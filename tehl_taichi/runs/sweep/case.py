@@ -4,23 +4,25 @@ import contextlib
 import socket
 import tempfile
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from tehl_taichi.errors import Error, NotConverged
+from tehl_taichi.errors import Error, NotConverged, are_options_typed, typed_options
 from tehl_taichi.scene import Scene
 
 
 @dataclass(frozen=True)
 class CaseJob:
     """scene: of the case; store: path of its store, None to keep only its summary; threads: of the engine (None: those of a
-    running engine, otherwise all); shared: other workers of this machine need the same kernels.
+    running engine, otherwise all); shared: other workers of this machine need the same kernels; typed: see
+    :func:`tehl_taichi.errors.typed_options`.
     """
 
     scene: Scene
     store: str | None
     threads: int | None = None
     shared: bool = False
+    typed: bool = field(default_factory=are_options_typed)
 
 
 def run_case(job, progress=None):
@@ -31,7 +33,8 @@ def run_case(job, progress=None):
     began = time.perf_counter()
     status, reason, summary = "converged", "", None
     try:
-        summary = _summary(job, progress)
+        with typed_options(job.typed):
+            summary = _summary(job, progress)
     except NotConverged as error:
         status, reason = "not converged", str(error)
     except Exception as error:  # noqa: BLE001  whatever it is, the other cases continue

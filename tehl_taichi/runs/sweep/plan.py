@@ -35,7 +35,7 @@ class Plan:
 
     def __post_init__(self):
         if not self.axes:
-            raise SceneError("a sweep needs a key: --over key=values, as in --over srr=-0.3:0.3:7")
+            raise SceneError("--over needs a key and its values, such as srr and -0.3:0.3:7")
         names = [aliases.full_name(key) for key in self.keys]
         for key, name in zip(self.keys, names):
             if names.count(name) > 1:

@@ -97,7 +97,7 @@ def test_cases_in_the_order_of_the_keys():
 
 @pytest.mark.parametrize("over, said", [
     ({"sr": [0.1]}, "did you mean 'srr'"), ({"feature.hight": [1e-6]}, "height"), ({"srr": [-2.0, 0.1]}, "never passes"),
-    ({"height": [1e-6, 2.0]}, "height = 2 m"), ({"srr": [0.1], "operation.srr": [0.2]}, "swept twice"), ({}, "--over"),
+    ({"height": [1e-6, 2.0]}, "height = 2 m"), ({"srr": [0.1], "operation.srr": [0.2]}, "swept twice"), ({}, "over needs a key"),
     ({"load": [1e6], "hertz_pressure": [1e9]}, "contradict"), ({"srr": "0:1:400", "speed": "1:2:400"}, "at most 100000"),
     ({"srr": []}, "has no values"), ({("srr", "speed"): [(0.1, 5), (0.2,)]}, "needs 2 values"),
     ({("srr", "speed"): [0.1, 5]}, "needs 2 values"), ({("srr", "speed"): 5}, "needs 2 values"), ({3: [1]}, "has the key 3"),
