@@ -62,7 +62,7 @@ def sweep(
         sweeping.check_place(plan, out, keep)
         return print_json(_planned_dict(plan, out)) if as_json else _report(plan, out)
     _check_count(plan, yes)
-    for sentence in doubts(plan):
+    for sentence in (*doubts(plan), *plan.warnings()):
         say(f"warning: {sentence}")
     with SweepLive(quiet) as live:
         try:
@@ -110,7 +110,7 @@ def _planned_dict(plan, out):
 
     refused = plan.refused()
     return {"dry_run": True, "scene": plan.scene.name, "cases": plan.count, "shape": plan.shape, "study": str(out),
-            "warnings": list(doubts(plan)),
+            "warnings": [*doubts(plan), *plan.warnings()],
             "results": [{"case": n, "changes": plan.changes(n), "reason": refused.get(n, "")} for n in range(plan.count)]}
 
 
@@ -129,7 +129,7 @@ def _report(plan, out):
         put(f"{key} = {', '.join(values[:12])}{' ...' if len(values) > 12 else ''}")
     for number, reason in refused.items():
         put(f"case {number} would be refused: {reason}")
-    for sentence in doubts(plan):
+    for sentence in (*doubts(plan), *plan.warnings()):
         put(f"warning: {sentence}")
 
 

@@ -53,6 +53,14 @@ def by_kind(summaries, spelled=str, leave=()):
     return list(kinds.values())
 
 
+def counted(summaries, every, leave=()):
+    """Sentences of several cases: the first of every kind, with the number of its cases; every: text such as "7 cases"; see
+    :func:`by_kind`.
+    """
+    return [f"{[*one][0]} ({sum(map(len, one.values()))} of {every}{', numbers of the first' * (len(one) > 1)})"
+            for one in by_kind(summaries, leave=leave)]
+
+
 def lists(warnings):
     """{name: list} of the sentences, codes and data of warnings, for summaries and stores."""
     whole = [one if isinstance(one, CodedWarning) else CodedWarning(one) for one in warnings]

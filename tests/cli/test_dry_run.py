@@ -68,3 +68,12 @@ def test_the_plan_says_what_the_summary_will_say(folder):
     assert {"hertz", "cells", "domain", "left_out"} <= shared and {key: plan[key] for key in shared} == {
         key: json.loads(json.dumps(whole[key])) for key in shared}
     assert plan["steady"].items() <= whole["steady"].items()
+
+
+@pytest.mark.parametrize("more", [(), ("--json",)])
+def test_a_sweep_warns_of_its_scenes(more, tmp_path):
+    """As `tehl run --dry-run` does of one."""
+    words = ("smooth-line", "--set", "oil.name=mineral-vg220", "--dry-run", *more)
+    one = here("run", *words, cwd=tmp_path).stdout
+    many = here("sweep", *words, "--over", "speed=5,6", cwd=tmp_path).stdout
+    assert (sentence := "oil.alpha_40 is not given") in one and many.count(sentence) == 1 and "2 of 2 cases" in many

@@ -12,6 +12,7 @@ from tehl_taichi.runs.sweep.sampling import latin_hypercube
 from tehl_taichi.scene import Scene, aliases, idle_keys
 from tehl_taichi.scene.unit_texts import column_in_units
 from tehl_taichi.values.checks import table
+from tehl_taichi.values.coded_warning import counted, lists
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.quantity import kinds
 
@@ -159,11 +160,22 @@ class Plan:
         """Sentences about keys, set or swept, without effect in any case; for a large plan only about set keys."""
         if self.count > LOOKED_AT:
             return list(idle_keys.doubts(self.scene))
-        every = []
-        for number in range(self.count):
-            with contextlib.suppress(SceneError):
-                every.append(list(idle_keys.doubts(self.case(number))))
+        every = [list(idle_keys.doubts(scene)) for scene in self._scenes(range(self.count))]
         return [sentence for sentence in every[0] if all(sentence in other for other in every)] if every else []
+
+    def warnings(self):
+        """Warnings of the cases known before their runs, except those about keys without effect: the first of every kind, with
+        the number of its cases. Of a large plan, cases at equal distances are looked at.
+        """
+        scenes = list(self._scenes(range(0, self.count, -(-self.count // LOOKED_AT))))
+        summaries = ((n, lists(one for one in scene.warnings() if one.code != "idle")) for n, scene in enumerate(scenes))
+        return counted(summaries, f"{len(scenes)} cases{' looked at' * (self.count > LOOKED_AT)}")
+
+    def _scenes(self, numbers):
+        """Generator of the scenes of these cases, without refused ones."""
+        for number in numbers:
+            with contextlib.suppress(SceneError):
+                yield self.case(number)
 
     def equal(self):
         """{case: earlier case} of cases that differ only in keys without effect; {} for a large plan."""

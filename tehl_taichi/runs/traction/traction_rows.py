@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tehl_taichi.runs.flank.flank_columns import error_of, value_at
-from tehl_taichi.values.coded_warning import by_kind
+from tehl_taichi.values.coded_warning import counted
 from tehl_taichi.values.digits import printed_unit
 
 if TYPE_CHECKING:
@@ -102,8 +102,7 @@ class Traction:
     def warnings_of_cases(self) -> list:
         """Further warnings of the cases: the first of every kind, with the number of its cases."""
         results = ((record["case"], record["summary"]) for record in self.study.results())
-        return [f"{[*one][0]} ({'the first of ' * (len(one) > 1)}{sum(map(len, one.values()))} of {len(self.study)} cases)"
-                for one in by_kind(results, leave=self.study.plan.doubts())]
+        return counted(results, f"{len(self.study)} cases", leave=self.study.plan.doubts())
 
     def to_dict(self) -> dict:
         """The JSON object of `tehl traction --json`."""

@@ -97,7 +97,7 @@ def test_cases_in_the_order_of_the_keys():
 
 @pytest.mark.parametrize("over, said", [
     ({"sr": [0.1]}, "did you mean 'srr'"), ({"feature.hight": [1e-6]}, "height"), ({"srr": [-2.0, 0.1]}, "never passes"),
-    ({"height": [1e-6, 2.0]}, "height = 2 m"), ({"srr": [0.1], "operation.srr": [0.2]}, "swept twice"), ({}, "over needs a key"),
+    ({"height": [1e-6, 2.0]}, "height = 2 m"), ({"srr": [0.1], "operation.srr": [0.2]}, "swept twice"), ({}, "needs a key"),
     ({"load": [1e6], "hertz_pressure": [1e9]}, "contradict"), ({"srr": "0:1:400", "speed": "1:2:400"}, "at most 100000"),
     ({"srr": []}, "has no values"), ({("srr", "speed"): [(0.1, 5), (0.2,)]}, "needs 2 values"),
     ({("srr", "speed"): [0.1, 5]}, "needs 2 values"), ({("srr", "speed"): 5}, "needs 2 values"), ({3: [1]}, "has the key 3"),
@@ -150,3 +150,21 @@ def test_a_study_file(tmp_path):
         path.write_text(text)
         with pytest.raises(SceneError, match=said):
             study_file.load(path)
+
+
+def test_warnings_of_the_scenes_are_those_of_their_runs():
+    """Each kind once, as the first scene has it, with the number of these scenes; idle keys are counted elsewhere."""
+    named = scene("smooth-line").replace(**{"oil.name": "mineral-vg220"})
+    made = plan(named, {"speed": [1.0, 50.0, 100.0], "temperature": [40.0, 90.0]})
+    runs = [one for n in range(made.count) for one in made.case(n).warnings() if one.code != "idle"]
+    first = {one.code: one for one in reversed(runs)}
+    counts = {code: sum(one.code == code for one in runs) for code in first}
+    assert {"inlet", "oil"} <= counts.keys() and len(made.warnings()) == len(counts)
+    for code, count in counts.items():
+        assert any(one.startswith(f"{first[code]} ({count} of 6 cases") for one in made.warnings())
+
+
+def test_of_many_cases_some_are_looked_at():
+    made = plan(scene("smooth-line").replace(**{"oil.name": "mineral-vg220"}), {"srr": "0:0.1:250"})
+    (sentence,) = made.warnings()
+    assert sentence.endswith("(84 of 84 cases looked at)") and "oil.alpha_40" in sentence

@@ -47,7 +47,7 @@ def test_the_object_has_the_rows_of_the_interface(curves):
 
 def test_cases_without_a_result_are_listed(curves):
     assert [(row["srr"], row["reason"], row["friction_coefficient"]) for row in curves.failed] == [(0.4, "made up", None)] * 2
-    assert curves.warnings == ["0.0 is doubtful (the first of 6 of 8 cases)"]
+    assert curves.warnings == ["0.0 is doubtful (6 of 8 cases, numbers of the first)"]
 
 
 def test_each_idle_key_of_the_cases_is_a_warning(tmp_path):
