@@ -277,7 +277,7 @@ def march(scene: "Scene | str", state: dict | None = None, precision: str | None
     Raises
     ------
     SceneError
-        At once: unknown precision, or a state on other nodes or without the temperatures of the scene.
+        At once: unknown precision, or a state of another scene (contact, oil, speeds, features, temperatures, grid).
     NotConverged
         A step failed; the snapshots before it are valid.
 

@@ -18,13 +18,16 @@ __all__ = ["march"]
 
 def march(scene: "Scene | str", state: dict | None = None, precision: str | None = None) -> "Iterator[Snapshot]":
     """March through a scene: see :func:`tehl_taichi.march`."""
+    from tehl_taichi.march import state_origin
     from tehl_taichi.march.passage import march as run
     from tehl_taichi.scene.builtin import scene_or_builtin
 
     scene = scene_or_builtin(scene)
     if state is not None:
         _check_state(scene, state)
-    return run(scene if precision is None else scene.replace(**{"numerics.precision": precision}), state)
+        state_origin.check(state, scene)
+    changed = scene if precision is None else scene.replace(**{"numerics.precision": precision})
+    return state_origin.recorded(run(changed, state), scene)
 
 
 def _check_state(scene, state):

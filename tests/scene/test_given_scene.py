@@ -72,7 +72,29 @@ def test_snapshots_and_states_of_another_grid_are_refused(shots):
             call(shots, other)
     with pytest.raises(SceneError, match=r"shape \(17, 65\) for P, the scene needs \(17, 129\)"):
         tehl.march(other, shots[-1].state)
-    assert [shot.step for shot in tehl.march(SCENE.replace(**{"time.steps": 4}), shots[-1].state)] == [4]
+
+
+@pytest.mark.parametrize("changes, key", [({"srr": 0.2}, "operation.srr = -0.12 there, 0.2 here"), ({"speed": 3.0}, "u_m"),
+                                          ({"load": 9e5}, "contact.load"), ({"height": 1e-6}, "feature.0.height"),
+                                          ({"oil.name": "mineral-vg220"}, "oil.nu_40"), ({"bodies.a.E": 1.9e11}, "bodies.a.E"),
+                                          ({"grid.x_min": -4.0}, "grid.x_min"), ({"time.courant": 2.0}, "time.courant")])
+def test_states_of_another_scene_on_these_nodes_are_refused(shots, changes, key):
+    with pytest.raises(SceneError, match=f"the state belongs to another scene: .*{key}"):
+        tehl.march(SCENE.replace(**changes), shots[-1].state)
+
+
+@pytest.mark.parametrize("changes", [{}, {"kappa": 0.2}, {"output.every": 2}, {"numerics.precision": "f64"},
+                                     {"bodies.a.k": 30.0}])
+def test_a_march_continues_where_the_state_does_not_depend_on_a_change(shots, changes, tmp_path):
+    scene, path = SCENE.replace(**{"time.steps": 4, **changes}), tmp_path / "state.npz"
+    np.savez(path, **shots[-1].state)
+    for state in (shots[-1].state, dict(np.load(path))):
+        assert [shot.step for shot in tehl.march(scene, state)] == [4]
+
+
+def test_a_ramp_continues_without_the_scene_of_its_state(shots):
+    state = {key: value for key, value in shots[-1].state.items() if key != "scene"}
+    assert [shot.step for shot in tehl.march(SCENE.replace(srr=-0.13, **{"time.steps": 4}), state)] == [4]
 
 
 def test_snapshots_take_the_fatigue_of_the_scene(shots):
