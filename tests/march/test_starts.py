@@ -87,12 +87,12 @@ def test_the_reason_names_what_failed():
     heat.report.failed = 2
     assert ": temperatures without a solution in 2 columns" in said() and "held" not in said()
     levels.put(fields.H, levels.G[0, fields.FLOOR])
-    assert "on its floor" in said() and f"--grid {2 * levels.scene.grid.nx} (" in said()
+    assert "on its floor" in said() and f"grid.nx={2 * levels.scene.grid.nx} (" in said()
     levels.scene = scene("gear").replace(height=9e-6, width=1e-3)
     assert "a feature" not in said() and "a feature rises 9e-06 m" in said(passing=True)
     # on its floor because oil of a thick film is missing, not because it is thin
     levels.scene = scene("smooth-line").replace(**{"speed": 20.0, "hertz_pressure": 1e8, "grid.x_min": -1.2})
-    assert "domain is probably too short; --set grid.x_min=" in said() and "floor" not in said()
+    assert "domain is probably too short; grid.x_min=" in said() and "floor" not in said()
 
 
 @pytest.mark.parametrize("height, names", [(2e-6, False), (8e-6, True)])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.errors import NotConverged
+from tehl_taichi.errors import NotConverged, typed_options
 from tehl_taichi.scene import SceneError, hertz
 from tehl_taichi.scene.scales import Scales
 
@@ -80,7 +80,7 @@ def test_one_sentence_settles_ends_and_sides_at_once(taichi_cpu):
 def test_a_refused_feature_is_told_the_whole_domain():
     """Not x_min first, then x_max, then y_max, then the cells."""
     high = {**WIDE, "height": 8e-6}
-    with pytest.raises(SceneError, match="undeformed gap") as refused:
+    with typed_options(), pytest.raises(SceneError, match="undeformed gap") as refused:
         tehl.scene("gear").replace(feature=[high], load=300e3, **{"grid.x_min": -2.5})  # auto begins farther
     changes = settled(str(refused.value))
     assert changes.keys() == {"grid.x_min", "grid.x_max", "grid.y_max", "grid.nx", "grid.ny"}

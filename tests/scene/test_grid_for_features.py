@@ -73,7 +73,7 @@ def test_a_rough_window_beats_none_for_the_smallest_dents(tmp_path):
     found, words = raceway(tmp_path, Feature(shape="dent", height=-2e-6, width=30e-6, rim=0.2e-6))
     (warning,) = resolution.warnings(found)
     assert 8 <= cells(found) < resolution.ENOUGH and "of the window" in warning and words
-    with pytest.raises(tehl.SceneError, match="--zoom 8 with --grid"):
+    with pytest.raises(tehl.SceneError, match="zoom.factor=8 with grid.nx="):
         raceway(tmp_path / "tiny", Feature(shape="dent", height=-1e-6, width=10e-6, rim=0.1e-6))
 
 

@@ -49,7 +49,8 @@ COARSE = {
 def test_fewer_than_four_cells_are_refused(values, key, count):
     said = sentence(lambda: on(256, 64, Feature(**values)))
     assert f"{key} = " in said and f"is 3.9 cells of grid.{count} = " in said and "at least 4 cells" in said
-    nx, ny = map(int, re.search(r"--grid (\d+)(?:x(\d+))?", said).groups(64))  # the grid that the sentence names is taken
+    nx, ny = map(int, re.search(r"grid\.nx=(\d+)(?: and grid\.ny=(\d+))?", said).groups(64))
+    # the grid that the sentence names is taken
     assert on(nx, ny, Feature(**values)).features and (nx, ny) != (256, 64)
     wider = {name: WIDE if value == NARROW else value for name, value in values.items()}
     assert any(f"{key} = " in line and "16" in line for line in on(256, 64, Feature(**wider)).warnings())
@@ -69,7 +70,7 @@ def test_too_narrow_for_any_grid():
     said = sentence(lambda: on(256, 64, Feature(width=1e-6), **{"grid.x_min": -20.0, "zoom.factor": 2}))
     assert "no grid is fine enough" in said and "feature.width of 6.1e-05 m is enough" in said
     said = sentence(lambda: on(256, 64, Feature(width=1e-6), **{"grid.x_min": -20.0}))
-    assert said.endswith("--zoom 8 with --grid 3904x192")
+    assert said.endswith("zoom.factor=8 with grid.nx=3904 and grid.ny=192")
 
 
 def test_lines_and_steady_scenes_need_no_rows():
