@@ -24,6 +24,7 @@ from tehl_taichi.scene import (
     run_in,
     scales,
     scene_warnings,
+    thick_film,
     zoom_room,
 )
 from tehl_taichi.scene.feature import Feature
@@ -135,6 +136,7 @@ class Scene:
             raise SceneError("fatigue.thermal_stress = true needs temperatures: use --thermal, or \"auto\"")
         self._check_pressure()
         oil_range.check(self)
+        thick_film.check(self)
         object.__setattr__(self, "grid", domain.with_chosen_ends(self))
         self._check_motion()
         self._check_path()

@@ -110,7 +110,7 @@ def test_a_computed_loss_replaces_the_estimate_of_a_short_domain(monkeypatch):
         assert result_warnings.warnings(store, {}) == [*estimates[len(found):], *found]
 
 
-@pytest.mark.parametrize("speed", [0.01, 0.1, 1.0, 20.0])
+@pytest.mark.parametrize("speed", [0.01, 0.1, 0.5])
 def test_a_film_that_is_not_thin_beside_the_ball_is_doubted(speed):
     """Whatever the speed: above a hundredth of the radius, where no domain helps."""
     scene = tehl.scene("ball-on-disc").replace(hertz_pressure=1e8, speed=speed)

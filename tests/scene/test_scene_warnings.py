@@ -8,11 +8,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.summary import result_warnings
-from tehl_taichi.scene import BUILT_INS, scene, thin_film, timeline
+from tehl_taichi.scene import BUILT_INS, scene, thick_film, thin_film, timeline
 from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.film_formula import heated_film
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.oil import Oil
+from tehl_taichi.scene.scales import Scales
 
 GEAR = scene("gear")
 NEW = {"oil.name": "mine", "oil.viscosity": "roelands", "oil.eta0": 0.1, "oil.alpha": 2e-8, "oil.Z": 0.6}
@@ -158,3 +161,31 @@ def test_warnings_are_found_once_and_follow_the_keys_that_the_user_gave(monkeypa
     idle = scene("smooth-line").replace(**{"thermal.on": False})
     before = {line.code for line in idle.warnings()}
     assert {line.code for line in idle.with_user_keys({"thermal.nodes"}).warnings()} - before == {"idle"}
+
+
+def thick_line(speed, **changes):
+    return scene("smooth-line").replace(**{"hertz_pressure": 1e8, "speed": speed, "srr": 0.0, "temperature": 20.0,
+                                           "thermal.on": False, "oil.name": "mineral-vg460", **changes})
+
+
+@pytest.mark.parametrize("share, outcome", [(0.009, ""), (0.011, "thick"), (0.24, "thick"), (0.26, "refused")])
+def test_a_film_beside_its_bodies_is_doubted_then_refused(share, outcome):
+    """The film of a rigid line is proportional to the speed: shares of R' follow from one scene, for every way to a scene."""
+    usual = thick_line(5.0)
+    speed = 5.0 * share * Scales.of(usual).R / heated_film(usual)
+    if outcome != "refused":
+        assert ("thick" in [one.code for one in thick_line(speed).warnings()]) == (outcome == "thick")
+        return
+    faster = dataclasses.replace(usual.operation, u_m=speed)
+    for make in (lambda: thick_line(speed), lambda: dataclasses.replace(usual, operation=faster)):
+        with pytest.raises(SceneError, match=r"0\.26\d* times the reduced radius \(0.0106 m\).*allowed: at most 0.25 of it"):
+            make()
+    assert thick_line(speed, **{"grid.inlet": "starved"}).grid.inlet == "starved"  # its film is that of the oil it is given
+
+
+def test_bodies_end_where_a_refused_film_builds_its_pressure():
+    """Two equal cylinders have twice the reduced radius; there the parabola is at eight of the thickest allowed films."""
+    R, end = 1.0, 2.0
+    assert end**2 / (2 * R) == pytest.approx(8 * thick_film.NO_BODIES * R)
+    x = np.sqrt(2 * R * 8 * thick_film.THICKEST * R)
+    assert 1 - x**2 / (2 * R) / (R - np.sqrt(R**2 - x**2)) == pytest.approx(0.04, abs=0.005)
