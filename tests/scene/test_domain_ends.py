@@ -104,7 +104,7 @@ def test_a_fixed_end_within_the_film_is_too_short(scene, end):
 def test_a_computed_loss_replaces_the_estimate_of_a_short_domain(monkeypatch):
     """One sentence about a domain, not two; other warnings of the scene stay."""
     estimates = [CodedWarning("by formula", "domain"), CodedWarning("coarse", "cells")]
-    store = SimpleNamespace(scene=SimpleNamespace(warnings=lambda: estimates))
+    store = SimpleNamespace(scene=SimpleNamespace(warnings=lambda: estimates), warnings=[])
     for found in ([CodedWarning("computed", "domain")], []):
         monkeypatch.setattr(result_warnings, "coded_warning", lambda *_, found=found: found)
         assert result_warnings.warnings(store, {}) == [*estimates[len(found):], *found]

@@ -59,3 +59,13 @@ def test_later_changes_and_smooth_copies_keep_the_warning(tmp_path):
     found = load(tmp_path / "one.toml", SHEET, {"oil.name": "mineral-vg220"})
     for one in (found.replace(srr=0.1), base_of(found), smooth(found)):
         assert said(one) == said(found) != []
+
+
+def test_the_summary_of_a_run_keeps_what_was_said_about_typed_keys(tmp_path):
+    """The scene of a store has no memory of what the user gave: that is in the warnings stored at the start."""
+    changes = {"oil.name": "mineral-vg220", "oil.k0": 0.12, "thermal.on": False, "grid.nx": 64}
+    scene = load(tmp_path / "one.toml", SHEET, changes)
+    run = tehl.run(scene, tmp_path / "a.zarr")
+    typed = [one for one in scene.warnings() if one.code in ("idle", "replaced")]
+    assert len(typed) == 2 and all(run.summary["warnings"].count(one) == 1 for one in typed)
+    assert tehl.open(run.path).summary["warnings"] == run.summary["warnings"]

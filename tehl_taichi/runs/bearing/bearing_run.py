@@ -9,6 +9,7 @@ from pathlib import Path
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import Error, StoreError
+from tehl_taichi.runs import place_warnings
 from tehl_taichi.runs.bearing import ellipse_slip, kinematics, load_distribution, ring_contacts, ring_scenes, stiffness
 from tehl_taichi.runs.bearing.bearing_source import bearing_source, default_scene
 from tehl_taichi.runs.bearing.dry_contact import dry_contact
@@ -26,6 +27,7 @@ from tehl_taichi.scene.scales import reduced_modulus
 from tehl_taichi.store.json_values import plain
 from tehl_taichi.store.load_scene import find
 from tehl_taichi.values.checks import choice, flag, number, table
+from tehl_taichi.values.coded_warning import lists
 from tehl_taichi.values.path_arguments import path_of
 from tehl_taichi.values.units import in_unit
 
@@ -72,7 +74,7 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     target = path_of("folder", folder) if folder else first_free_folder(found.name)
     made = Bearing(target, bearing_record(found, target, loads, speeds, rings, roughness, doubts))
     Bearing.check_writable(target, made)
-    made = _with_stored(made, rings)
+    made = _with_stored(made, rings) if run else _with_scene_warnings(_with_stored(made, rings), rings)
     _check_scenes(target, rings)
     made.write()
     write_scenes(target, rings)
@@ -82,6 +84,13 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     if not run:
         return made
     return computed(made, _with_ring, _scenes(rings), workers, threads, progress)
+
+
+def _with_scene_warnings(made, rings):
+    """Copy of a Bearing with the warnings of the scenes that have not run: those of a run contain them."""
+    scenes = [(ring, None, lists(case.scene.warnings())) for ring, case in rings.items() if not made.rings[ring]["summary"]]
+    found = place_warnings.of(scenes, "{} ring".format)
+    return Bearing(made.folder, {**made.record, "warnings": [*made.record["warnings"], *found]})
 
 
 def _report(progress, rings, doubts):

@@ -22,6 +22,7 @@ from tehl_taichi.values.digits import micrometres, with_error
 
 STILL = 0.01  # of the largest plastic strain: a passage that adds less has run in
 ABOVE = 0.03  # of the largest pressure of a run: a window with so much more would make more steel flow
+OF_USER = "idle", "replaced"  # codes of warnings about what the user typed, which the scene of a store no longer knows
 MANY, FIRST = 6, 4  # numbers without an error bar: so many are all named, of more the first
 CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
 
@@ -34,7 +35,8 @@ def warnings(store, summary):
     checks = ROUGH_CHECKS if searched(summary.get("fatigue", {})).get("rough") else CHECKS
     found = coded_warning(checks, store, summary)
     kinds = {one.code for one in found}
-    return unique([*(one for one in store.scene.warnings() if one.code not in kinds), *found])
+    at_start = [one for one in store.warnings if one.code in OF_USER]
+    return unique([*(one for one in (*store.scene.warnings(), *at_start) if one.code not in kinds), *found])
 
 
 def reached_maxima(store):

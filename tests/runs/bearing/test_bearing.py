@@ -371,7 +371,8 @@ def test_keys_of_a_passage_have_no_effect_where_nothing_passes(tmp_path):
     assert tehl.open(tmp_path / "b").record["warnings"] == bearing_table.warnings(found) == said
     dent = dict(feature=tehl.Feature(**DENT), run=False, progress=listener)
     dented = tehl.bearing("6206", changes={**keys, "height": -1e-6}, folder=tmp_path / "d", **dent)
-    assert dented.record["warnings"] == [] and len(said) == 4
+    (cut,) = dented.record["warnings"]  # of its scene, as its run would have it
+    assert cut.startswith("inner ring: passage cut at ") and len(said) == 4
     steady = tehl.bearing("6206", changes={"time.steady_only": True}, folder=tmp_path / "s", **dent)
     assert not tehl.scene(steady.rings["inner"]["scene_file"]).transient
 
@@ -491,3 +492,14 @@ def test_a_bearing_is_computed(taichi_cpu, tmp_path):
     assert tehl.bearing("6206", **DUTY, **keys).record == found.record
     with pytest.raises(StoreError, match="holds another scene"):
         tehl.bearing("6206", load=2000.0, speed=1500.0, **keys)
+
+
+def test_contacts_that_do_not_run_warn_of_their_scenes(tmp_path):
+    """As their runs would: an estimated alpha, of both rings; a run has its own warnings, and both are not listed."""
+    changes, quick = {"oil.name": "mineral-vg220"}, {"thermal.on": False, "grid.nx": 32, "grid.ny": 16}
+    first = tehl.bearing("6206", changes=changes, run=False, folder=tmp_path / "a")
+    (alpha,) = bearing_table.warnings(first)
+    assert alpha.startswith("inner ring, outer ring: oil.alpha_40 is not given")
+    tehl.bearing("6206", changes={**changes, **quick}, folder=tmp_path / "b", workers=1)
+    again = tehl.bearing("6206", changes={**changes, **quick}, run=False, folder=tmp_path / "b")
+    assert again.record["warnings"] == [] and sum("alpha_40" in one for one in bearing_table.warnings(again)) == 1

@@ -15,6 +15,8 @@ from tehl_taichi.values.coded_text import Reason, without_options
 
 
 class Made:
+    warnings = ()
+
     """A store of two entries on 97 x 9 nodes."""
 
     def __init__(self, description, friction=(0.05, 0.06), contact=(0.0, 0.0), pressure=None):
