@@ -14,6 +14,7 @@ from tehl_taichi.scene import (
     domain,
     domain_warnings,
     film_formula,
+    idle_keys,
     moving_surfaces,
     named_oils,
     oil,
@@ -61,6 +62,7 @@ FIRST, LAST = -1.6, 1.4  # of the path of a small feature, in a
 CLEAR = 1.3  # distance in a of a feature's front from X = 0 at an automatic start
 BEYOND = 1.2  # half-widths, at least, from the centre to the edge of the grid
 AT_REST = 0.01  # of the mean speed
+PARTS: tuple[Any, ...] = Body, Oil, *SECTIONS.values()
 MAX_HERTZ, MIN_HERTZ = 6e9, 1e7  # Pa: outside this range the laws say nothing
 
 
@@ -442,7 +444,7 @@ class Scene:
         **changes
             Short names (srr, load, hertz_pressure, speed, temperature, height, width, kappa, endurance, torsion_limit,
             bending_limit, name), or full keys as in a scene file: "grid.nx", "bodies.a.E", "feature.height" (the first
-            feature), "feature.1.height" (the second).
+            feature), "feature.1.height" (the second). A whole part may be an object or a table of it: oil=tehl.Oil(...).
 
         Returns
         -------
@@ -464,10 +466,12 @@ class Scene:
         ...
         tehl_taichi.errors.SceneError: unknown key nx (did you mean 'grid.nx'?); all ... names: ...
         """
-        changes = aliases.resolve_named(changes)
-        changed = Scene.from_dict(overrides.apply_changes(self.to_dict(), changes))
-        overrides.check_effect(changed, changes)
-        return replaced_keys.with_changes(self, changed, changes)
+        single = aliases.resolve_named({key: _as_table(key, value) for key, value in changes.items()})
+        changed = Scene.from_dict(overrides.apply_changes(self.to_dict(), single))
+        parts = {key: value for key, value in changes.items() if isinstance(value, PARTS)}  # their usual values are no user's
+        given = {key: value for key, value in single.items() if not key.startswith(tuple(f"{part}." for part in parts))} | parts
+        overrides.check_effect(changed, given)
+        return replaced_keys.with_changes(self, changed, given)
 
     def with_user_keys(self, keys: Iterable[str], replaced: Iterable[str] = ()) -> "Scene":
         """This scene, with a record of the keys that the user gave (see :mod:`tehl_taichi.scene.idle_keys`) and warnings about
@@ -513,6 +517,14 @@ class Scene:
         if "feature" in data:
             parts["features"] = _features(data["feature"])
         return cls(name=data.get("name", "gear"), note=data.get("note", ""), **parts).with_user_keys(())
+
+
+def _as_table(key, value):
+    """Table of a part that is an object, with None for numbers that follow from others; any other value unchanged."""
+    if not isinstance(value, PARTS):
+        return value
+    follow = idle_keys.FOLLOW[key](vars(value)) if key in idle_keys.FOLLOW else ()
+    return {**domain.with_auto(dataclasses.asdict(value)), **dict.fromkeys(follow)}
 
 
 def _bodies(values):

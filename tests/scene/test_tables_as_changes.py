@@ -1,11 +1,14 @@
 """Tables, sections and whole features as changes of a scene: the same as their keys one by one."""
 
+import dataclasses
+
 import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import idle_keys, scene_file
 from tehl_taichi.scene.grid_for_features import is_grid_open
+from tehl_taichi.scene.sections import SECTIONS
 
 TABLES = [{"operation": {"temperature": 40.0}}, {"contact": {"kind": "point", "load": 20.0}}, {"grid": {"nx": 96}},
           {"bodies": {"a": {"E": 2e11}}}, {"bodies.b": {"k": 30.0}}, {"oil": {"eta0": 0.02}}, {"fatigue": {"kappa": 0.5}},
@@ -54,3 +57,23 @@ def test_features_of_another_scene_bring_no_keys_of_their_own():
         found = gear.replace(feature=features)
         assert found.features == dent.features and not [*idle_keys.doubts(found)]
         assert "feature.0.seed" not in found.user_keys and "feature.0.height" in found.user_keys
+
+
+@pytest.mark.parametrize("name", ["smooth-line", "dent", "ball-on-disc", "roller-bearing", "twin-disc"])
+def test_a_part_may_be_an_object(name):
+    """As with dataclasses.replace, and without a word about its usual values."""
+    gear, other = tehl.scene("gear"), tehl.scene(name)
+    for key in (*SECTIONS, "oil", "bodies.a"):
+        part = key.replace("bodies.a", "body_a")
+        if key != "contact" or other.contact.kind == "line":
+            assert gear.replace(**{key: getattr(other, part)}) == dataclasses.replace(gear, **{part: getattr(other, part)})
+        assert gear.replace(**{key: getattr(gear, part)}).warnings() == gear.warnings()
+
+
+@pytest.mark.parametrize("key, part", [
+    ("fatigue", tehl.Fatigue(torsion_limit=4e8)), ("oil", tehl.Oil(nu_40=2e-4, nu_100=1.8e-5)),
+    ("oil", tehl.Oil(name="mineral-vg220")), ("bodies.b", tehl.Body(material="100Cr6")),
+    ("operation", tehl.Operation(u_m=5.0, srr=0.1))])
+def test_numbers_of_an_object_that_follow_from_others_contradict_nothing(key, part):
+    found = tehl.scene("gear").replace(**{key: part})
+    assert getattr(found, key.replace("bodies.b", "body_b")) == part and not found.replaced
