@@ -36,14 +36,14 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
     from tehl_taichi.runs.sweep.study_table import CASES, Study
 
     callback("progress", progress)
-    workers, threads = check_settings(workers, threads_per_worker, scheduler, keep)
+    check_settings(workers, threads_per_worker, scheduler, keep)
     refused = plan.refused()
     path = path_of("path", path) if path is not None else default_path(plan)
     check_place(plan, path, keep)
     with Study.write(path, plan) as study:
         _report_refused(study, refused)
         todo = study.open_cases
-        workers = workers and min(workers, max(1, len(todo)))
+        workers, threads = pool.sizes(workers, threads_per_worker, scheduler, max(1, len(todo)))
         if progress:
             progress(study, None)
         jobs = (_job(study, number, keep, threads, shared=workers != 1) for number in todo)

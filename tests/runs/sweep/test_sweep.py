@@ -441,3 +441,16 @@ def _writer(store):
 
     _wait_for(there)
     return found[0]
+
+
+@pytest.mark.parametrize("workers, threads, wanted", [(None, None, None), (3, None, None), (None, 1, 1), (1, None, None)])
+def test_a_single_case_runs_in_this_process_as_it_was_started(tmp_path, workers, threads, wanted):
+    """Its engine may have other threads than those of a worker among several; a given number is taken."""
+    jobs = []
+
+    def work(job):
+        jobs.append(job)
+        return formula(job)
+
+    sweeping.run(plan(GEAR, {"srr": [0.1]}), tmp_path / "a.zarr", workers=workers, threads_per_worker=threads, work=work)
+    assert [job.threads for job in jobs] == [wanted] and not jobs[0].shared
