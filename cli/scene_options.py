@@ -61,7 +61,7 @@ def _settings(pairs):
     out = []
     for pair in pairs:
         key, equals, text = pair.partition("=")
-        if not equals:
+        if not equals or not key.strip():
             raise SceneError(f"--set {pair!r} must have the form dotted.key=value, as in feature.height=1e-6")
         out.append((f"--set {pair}", key.strip(), _value(text)))
     return out

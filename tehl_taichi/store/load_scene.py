@@ -20,7 +20,7 @@ def find_changed(name, changes):
     """
     from tehl_taichi.scene import scene_file
 
-    if not isinstance(name, (str, os.PathLike, Scene)):
+    if not isinstance(name, (str, os.PathLike, Scene)) or name == "":
         raise SceneError(f"{shown(name)} is not a scene; allowed: a Scene, a built-in name, a TOML file or a store")
     if not isinstance(name, Scene) and name not in BUILT_INS and _is_file(Path(name)):
         return scene_file.load(name, changes)

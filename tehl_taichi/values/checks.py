@@ -116,7 +116,7 @@ def callback(where, given, method="", allowed="a function, or None"):
 def text(where, value, most=500, printable=True, empty=True):
     """Refuse `value` unless it is text of at most `most` characters (`printable`: on one line, without control characters)."""
     if not isinstance(value, str) or not (empty or value.strip()):
-        raise SceneError(f"{where} = {shown(value)} must be text")
+        raise SceneError(f"{where} = {shown(value)} must be text{'' if empty else ', and not empty'}")
     if len(value) > most:
         raise SceneError(f"{where} = {shown(value)} has {len(value)} characters; allowed: at most {most}")
     if printable and not value.isprintable() or any("\ud800" <= c <= "\udfff" for c in value):

@@ -9,7 +9,7 @@ from tehl_taichi.values.coerce import shown
 
 def path_of(name, value):
     """Path of an argument. Raises SceneError if it is neither text nor path, or has a character that no path has."""
-    if not isinstance(value, (str, PathLike)) or "\0" in str(value):
+    if not isinstance(value, (str, PathLike)) or value == "" or "\0" in str(value):
         raise SceneError(f"{name} = {shown(value)} is not a path; allowed: text or a pathlib.Path")
     return Path(value)
 

@@ -414,6 +414,16 @@ def test_a_missing_file_is_refused_with_the_nearest_one(tmp_path, words):
     assert re.search("does not exist|No such file|neither a file", found.stderr)
 
 
+@pytest.mark.parametrize("words, said", [
+    (("run", ""), "'' is not a scene"), (("sweep", "", "--over", "srr=0.1"), "'' is not a scene"),
+    (("flank", ""), "gear = '' is not a path"), (("bearing", ""), "bearing = '' is not a path"),
+    (("run", "gear", "--set", "=3"), "--set '=3' must have the form"), (("run", "gear", "--oil", ""), "and not empty")])
+def test_an_empty_word_is_refused_as_such(words, said):
+    """A shell gives one for a variable that is not set; an empty path is not the working directory."""
+    found = here(*words)
+    assert found.returncode == 2 and said in found.stderr
+
+
 def test_a_bearing_file_may_have_any_ending(tmp_path):
     (tmp_path / "mine.tml").write_text('base = "6206"')
     (tmp_path / "6206").write_text("")  # no file hides a designation
