@@ -58,8 +58,8 @@ def _as_it_moves(base, at):
     """The base scene, with mirrored features for a position whose contact moves backwards."""
     if at.u_a + at.u_b >= 0:
         return base
-    features = [dataclasses.replace(f, x=-f.x, **({"mirror_x": not f.mirror_x} if "mirror_x" in f.kind.uses else {}))
-                for f in base.features]
+    features = [dataclasses.replace(f, x=-f.x, **({"mirror_x": not f.mirror_x, "offset_x": -f.offset_x} if f.kind.measured
+                                                  else {})) for f in base.features]
     return dataclasses.replace(base, features=tuple(features)).with_user_keys(idle_keys.user_keys(base), base.replaced)
 
 
