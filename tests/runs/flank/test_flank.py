@@ -200,6 +200,15 @@ def test_features_fit_into_the_domain_of_the_smallest_contact():
             assert scene.grid.y_max * s.b >= 1.9 * feature.reach_y
 
 
+@pytest.mark.parametrize("y", [2e-4, -2e-4])
+def test_the_domain_reaches_beyond_a_feature_beside_the_middle(y):
+    base = tehl.scene("gear").replace(**{"feature.y": y})
+    feature, = base.features
+    for n, at in enumerate(flank_source("fzg-c").positions(count=7)):
+        scene = scene_at(base, {}, "fzg-c", n, at)
+        assert scene.grid.y_max * Scales.of(scene).b >= 1.9 * (abs(feature.y) + feature.reach_y)
+
+
 def test_the_gap_beside_a_dry_line_contact():
     assert hertz.line_gap(1.0) == 0.0
     step = 1e-6  # its slope is sqrt(X^2 - 1), the tangent that Hertz leaves (Johnson 4.2)

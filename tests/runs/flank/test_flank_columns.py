@@ -71,3 +71,30 @@ def test_a_panel_draws_the_numbers_of_its_legend_in_the_unit_of_its_axis(label, 
         for word, key in MEANT.items():
             if isinstance(keys, tuple) and word in legend:
                 assert any(key in one for one in keys), (legend, keys)
+
+
+def test_the_shaded_side_is_the_dedendum_of_negative_distances(tmp_path):
+    import made_results
+
+    import tehl_taichi as tehl
+    from tehl_taichi.runs.flank import flank_figure
+    from tehl_taichi.view.figures.figure_style import FigureStyle
+
+    pytest.importorskip("matplotlib")
+    axes = flank_figure.drawn(FigureStyle(), tehl.open(made_results.flank(tmp_path))).axes
+    for ax in axes:
+        shade, = ax.patches
+        assert shade.get_x() == pytest.approx(ax.get_xlim()[0]) and shade.get_x() + shade.get_width() == pytest.approx(0.0)
+    sides = {text.get_text(): text.get_ha() for text in axes[-1].texts}
+    assert (sides["dedendum"], sides["addendum"]) == ("right", "left"), "of a place at the pitch point"
+
+
+def test_positions_of_a_stored_flank_are_those_of_its_record(tmp_path):
+    import made_results
+
+    import tehl_taichi as tehl
+
+    found = tehl.open(made_results.flank(tmp_path))
+    for at, one in zip(found.positions, found.record["positions"], strict=True):
+        assert (at.srr, at.R, at.load, at.u_a, at.u_b) == pytest.approx(
+            [one[key] for key in ("srr", "R_m", "load_N_m", "u_a_m_s", "u_b_m_s")]) and abs(at.u_m - 1) > 0.5

@@ -245,3 +245,20 @@ def test_arcs_grow_as_fast_as_the_profile_passes_the_contact(on):
     for one, two in zip(places, places[1:]):
         passed = 0.5 * (one.u_a + two.u_a) * (two.x_pl - one.x_pl) / v
         assert two.arc - one.arc == pytest.approx(passed, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("on", ["pinion", "gear"])
+def test_the_record_has_the_points_and_radii_of_its_positions(on, tmp_path):
+    """Of the flank that carries the feature; radii at C are as the numbers of teeth, and give the speed and the force there."""
+    from tehl_taichi.runs.flank.flank_run import describe
+    from tehl_taichi.runs.flank.flank_source import flank_source
+
+    found = flank_source("fzg-c")
+    geometry, pair = describe(found, tmp_path, on)["geometry"], found.pair
+    for at in found.positions(on, 7):
+        assert at.x_pl == geometry["points_x_pl_m"][at.point.strip("+-")], at.point
+    assert geometry["rho_C2_m"] / geometry["rho_C1_m"] == pytest.approx(pair.z2 / pair.z1)
+    alpha_w = math.radians(geometry["alpha_w_deg"])
+    assert geometry["rho_C1_m"] + geometry["rho_C2_m"] == pytest.approx(pair.a_w * math.sin(alpha_w))
+    assert geometry["u_C_m_s"] == pytest.approx(2 * math.pi * pair.n1 / 60 * geometry["rho_C1_m"])
+    assert geometry["F_bt_N"] * geometry["rho_C1_m"] / math.tan(alpha_w) == pytest.approx(pair.torque)

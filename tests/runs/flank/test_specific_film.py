@@ -93,3 +93,24 @@ def test_the_specific_film_is_over_the_effective_roughness_whatever_the_sign_of_
     found = specific_film.film_ratios(scene, steady, 0.5e-6)
     assert found["lambda_GF"] * 0.5e-6 == pytest.approx(specific_film.formula_film(scene, 0.05))
     assert found["h_min_Ra"] == pytest.approx(0.6)
+
+
+@pytest.mark.parametrize("changes, recorded", [({}, 110.0), ({"operation.temperature": 60.0}, 60.0)])
+def test_the_recorded_bulk_temperature_is_that_of_the_scene(rough_gears, changes, recorded):
+    from tehl_taichi.runs.flank.flank_run import flank_record
+    from tehl_taichi.runs.flank.outcomes import Outcome
+
+    places, subject = rough_gears.positions, {"geometry": rough_gears.record["geometry"]}
+    scenes = [scene_at(tehl.scene("gear"), changes, "f", n, place) for n, place in enumerate(places, 1)]
+    found = flank_record(subject, places, scenes, [Outcome(rough_gears.folder)] * len(places))
+    assert [one["bulk_C"] for one in found["positions"]] == [recorded] * len(places)
+
+
+def test_hot_oil_thins_the_film_by_its_viscosity_and_its_pressure_coefficient():
+    """S^0.22 with S = alpha eta in the contact over that of the bulk; both fall with the temperature."""
+    scene = at_point("E")
+    bulk, flash = scene.operation.temperature, specific_film.flash(scene, 0.05)
+    (eta, alpha), (hot_eta, hot_alpha) = (specific_film.oil_at(scene, at) for at in (bulk, bulk + flash))
+    assert hot_eta < eta and hot_alpha < alpha
+    ratio = specific_film.formula_film(scene, 0.05) / specific_film.formula_film(scene, 0.0)
+    assert ratio == pytest.approx((hot_eta / eta * hot_alpha / alpha) ** 0.22)
