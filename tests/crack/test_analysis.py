@@ -202,6 +202,12 @@ def test_lines_of_another_length_are_refused(tmp_path, text, said):
         residual(tmp_path, text)
 
 
+@pytest.mark.parametrize("rows", [[(0.0, -6e9), (1e-4, 1e8)], [(0.0, -1e8), (1e-4, 6e9)]])
+def test_a_residual_stress_beyond_steel_is_refused_in_either_direction(rows):
+    with pytest.raises(SceneError, match="the largest residual stress = -?6e.09 Pa is out of range"):
+        ResidualStress(rows)
+
+
 def test_oil_inside_adds_its_pressure_to_the_faces():
     """Pulled along x by 1e8, half of a pressure of 1e8 inside: as tension reaches 1.5e8."""
     pressed = plane(1e8, -1e8)
@@ -354,10 +360,39 @@ def test_a_crack_is_near_the_surface_after_its_first_piece_alone(depth, doubted)
     assert len(said) == doubted and all("closer to the surface" in one for one in said)
 
 
+def test_largest_numbers_of_a_crack_that_slows_down():
+    """Tension down to 12 µm alone: K_I is largest before the end; the start is at the only moment with all of the tension."""
+    falling = plane(lambda x, z: 1e8 - 2e8 * (z > 12e-6) + 0 * x)
+    entry = follow(falling, SCENE, CrackOptions(threshold=0.3e6, side="entry")).summary["sides"]["entry"]
+    K = [step["K_I_max"] for step in entry["K"]]
+    assert entry["K_I_max"] == max(K) > 1.5 * K[-1] and entry["stopped"] == "threshold"
+    assert entry["moment_x_m"] == pytest.approx(-0.5 * 360 * MICRO)
+
+
+def test_a_crack_opens_by_the_plane_modulus_of_its_body():
+    """At the mouth of a normal edge crack 1.454 times 4 sigma a/E', E' = E/(1 - nu^2) (Tada, Paris & Irwin)."""
+    scene = SCENE.replace(**{"bodies.a.E": 300e9, "bodies.a.nu": 0.4})
+    last = follow(plane(1e8), scene, CrackOptions(length=20 * MICRO, elements=24, side="entry")).sides["entry"].path.last
+    opening = (last.faces.opening() @ last.values)[0, 1]
+    assert opening == pytest.approx(1.454 * 4 * 1e8 * 20 * MICRO / (300e9 / (1 - 0.4**2)), rel=0.01)
+
+
+def test_pressure_all_around_and_inside_changes_no_path():
+    """The film and the oil press body and faces alike in the moment that leads the crack."""
+    dry = plane(1e8)
+    dry.stress[:, :, :3] = np.array([[0.2, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.6]]) * 1e8  # xx, zz, xz of the moments
+    wet = plane(1e8)
+    wet.stress[:, :, :3] = dry.stress[:, :, :3] - np.array([0.0, 0.0, 0.9])[:, None] * np.array([1e8, 1e8, 0.0])
+    paths = [grown(one, oil=oil, length=30 * MICRO).points for one, oil in ((dry, 0.0), (wet, 1.0))]
+    assert np.abs(paths[0].real + 30 * MICRO).max() > 3 * MICRO
+    np.testing.assert_allclose(paths[1], paths[0], atol=1e-6 * MICRO)
+
+
 def test_oil_flows_with_the_oil_and_the_speed_of_the_scene(rolled):
     """Between nothing and the film's pressure; and times and viscosity that it goes with."""
     plane, u_a = rolled.plane, SCENE.operation.u_a
     np.testing.assert_allclose(np.diff(plane.times[:-1]) * u_a, np.diff(plane.centres[:-1]), rtol=1e-9)
+    assert plane.times[-1] - plane.times[-2] == pytest.approx(plane.times[-2] - plane.times[0]), "unloaded as long after"
     assert np.log(plane.fluid.viscosity(1e8)) == pytest.approx(ln_eta(SCENE.oil, 1e8, SCENE.operation.temperature))
     path = rolled.sides["entry"].start.x + np.array([0, 20 * MICRO * np.exp(0.8j)])
     dry, flow, film = (growth.load_crack(plane, path, CrackOptions(oil=oil), E_STAR) for oil in ("dry", "flow", "film"))
