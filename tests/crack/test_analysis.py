@@ -23,6 +23,7 @@ from tehl_taichi.errors import StoreError
 from tehl_taichi.fatigue import assessment
 from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.scene import SceneError
+from tehl_taichi.scene.scales import Scales
 
 MICRO, E_STAR, SCENE = 1e-6, 206e9 / 0.91, tehl.scene("gear")
 
@@ -444,6 +445,64 @@ def test_figure(rolled, tmp_path):
     assert top == pytest.approx(max(rolled.sides["entry"].path.first.K.max(), rolled.sides["entry"].path.last.K.max()) / 1e6)
     assert ", body a" in figure.get_suptitle() and section.get_xlabel().startswith("x' from the feature's centre")
     assert figure.get_suptitle().endswith("no crack on the exit side") and "entry" in entry.get_ylabel()
+
+
+def test_lines_of_the_figure_are_those_of_their_labels(rolled):
+    """K over the feature's position in half-widths; the feature, the pits and the tension where and as large as they are."""
+    from tehl_taichi.view.figures import crack_figures
+    from tehl_taichi.view.figures.figure_style import FigureStyle
+
+    pytest.importorskip("matplotlib")
+    section, entry, _ = crack_figures.crack_figure(FigureStyle(), rolled, "rolling").axes
+    side, plane = rolled.sides["entry"], rolled.plane
+    drawn = {line.get_label(): line for line in entry.lines}
+    for crack, length in ((side.path.first, 5), (side.path.last, 30)):
+        for K, kind in zip(crack.K, ("K_I", "K_II")):
+            x, y = drawn[f"{kind} at {length} µm"].get_data()
+            np.testing.assert_allclose(x * Scales.of(SCENE).a, plane.centres[:-1])
+            np.testing.assert_allclose(y * 1e6, K[:-1])
+    bump = next(line for line in section.lines if len(line.get_xdata()) == 2)
+    assert list(bump.get_xdata()) == pytest.approx([-1e6 * SCENE.features[0].width / 2, 1e6 * SCENE.features[0].width / 2])
+    mouth, low, high = section.patches[0].get_xy()[:3] - [side.start.x / MICRO, 0]
+    assert mouth == pytest.approx([0, 0]) and low[0] < 0, "with rolling, to the left"
+    assert np.degrees(np.arctan2([low[1], high[1]], [-low[0], -high[0]])) == pytest.approx(rolled.summary["pit_angles_deg"])
+    label = next(line.get_label() for line in section.lines if "largest tension" in line.get_label())
+    assert label.endswith(f"({side.start.sigma1 / 1e6:.0f} MPa)") and side.start.sigma1 > 1e8
+
+
+SIDE = {"opens": True, "sigma1_surface_Pa": 3.21e8, "start_x_m": -41 * MICRO, "moment_x_m": -180 * MICRO, "K_I_max": 2.4e6,
+        "tension_depth_m": 33 * MICRO, "trajectory": {"lean": "with rolling", "chord_deg_at_um": {"10": 71.0, "20": 62.0}},
+        "path": {"lean": "against rolling", "chord_deg_at_um": {"10": 54.0, "20": 45.0, "40": None}}, "length_m": 25 * MICRO,
+        "K": [{"length_m": 25 * MICRO, "K_I_max": 2.4e6, "K_II_there": 0.3e6, "K_II_range": 1.7e6}], "why": "it is long enough",
+        "error_at_last_length": {"K_I_max": 0.02e6, "K_II_range": 0.05e6}}
+
+
+def test_the_printed_numbers_of_a_side_are_in_their_units():
+    from tehl_cli.crack_command import _rows
+
+    rows = dict(_rows(SIDE, (18.0, 50.0)))
+    assert rows == {"largest tension at the surface": "321 MPa", "at x' (feature position)": "-41.0 um (-180 um)",
+                    "tension reaches down to": "33.0 um", "trajectory leans": "with rolling", "path leans": "against rolling",
+                    "trajectory: chord at 10, 20, 40 um (pits 18 to 50)": "71, 62 deg",
+                    "path: chord at 10, 20, 40 um (pits 18 to 50)": "54, 45, - deg",
+                    "K_I up to, range of K_II at 25.0 um": "2.400, 1.70 MPa sqrt(m)",
+                    "their errors at the last length": "0.02, 0.05", "stop reason": "it is long enough"}
+
+
+def test_the_page_has_the_numbers_of_a_side_in_its_sentence_and_its_figures():
+    """The chord of the largest depth that the crack reaches; the band of the pits leans with rolling, to the left."""
+    from tehl_taichi.report import crack_plots
+
+    sentence, = crack_plots.verdict({"sides": {"entry": SIDE}, "pit_angles_deg": [18.0, 50.0]})
+    assert "tension reaches 321 MPa; K_I reaches 2.4 MPa√m (at the last length ± 0.02," in sentence
+    assert "leans against rolling at 45° to the surface at 20 µm depth (pits: with rolling, 18 to 50°)" in sentence
+    band, = crack_plots._band("entry", {"path": [(-41 * MICRO, 0.0)]}, [18.0, 50.0], True)
+    x, z = np.array(band["x"])[:3] + 41, np.array(band["y"])[:3]
+    assert (x[0], z[0]) == pytest.approx((0, 0)) and np.degrees(np.arctan2(z[1:], -x[1:])) == pytest.approx([18.0, 50.0])
+    cracks = [{"length": length, "K_I": [1e6, 2e6], "K_II": [0.0, 3e5]} for length in (5 * MICRO, 30 * MICRO)]
+    lines = crack_plots._history("entry", cracks, [-0.5, 0.5]).traces
+    assert [line["name"] for line in lines] == ["at 5 µm", "at 30 µm"] * 2
+    assert list(lines[0]["y"]) == [1.0, 2.0] and list(lines[2]["y"]) == [0.0, 0.3]
 
 
 def rolling_store(path):
