@@ -72,6 +72,16 @@ def test_curves_name_their_axes_and_the_place_of_the_feature():
     assert ends.startswith("-0.75") and ends.endswith("+0.75")  # the contact and 0.3 of its width on both sides
 
 
+@pytest.mark.parametrize("x", [-0.5e-3, 0.3e-3])
+def test_the_feature_is_marked_at_its_place_on_the_axis(x):
+    curves, one = Curves(), snapshot()
+    one.feature_x = x
+    curves.take(one)
+    axis, ends = curves._foot(41).splitlines()
+    left, right = (float(end) * 1e-3 for end in (ends.split()[0], ends.split()[-1]))
+    assert left + (right - left) * axis.index("▲") / 40 == pytest.approx(x, abs=0.038e-3), "a letter"
+
+
 def test_whole_domains_are_drawn_through_their_largest_pressure():
     half, whole = snapshot(), snapshot()
     half.y = np.array([0.0, 1e-3, 2e-3])
