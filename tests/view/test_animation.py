@@ -42,6 +42,19 @@ def test_a_frame_shows_its_entry_on_axes_with_room_for_all():
     assert film.axes["pressure"].get_ylim() == pytest.approx((0.0, 1.05 * largest))
 
 
+def test_a_frame_has_the_map_and_the_feature_at_their_places_in_half_widths():
+    """A value of the map stands in the middle of its picture element; the other half is its mirror image."""
+    film = frames("gear", "film")
+    film.picture(3)
+    store, (image, *_) = film.store, film.map
+    left, right, low, high = np.array(image.get_extent()) * store.a
+    dx, dy = (np.diff(at[:2]).item() / 2 for at in (store.x, store.y))
+    assert (left, right) == pytest.approx((store.x[0] - dx, store.x[-1] + dx))
+    assert (low, high) == pytest.approx((-store.y[-1] - dy, store.y[-1] + dy))
+    for place in film.places:
+        assert list(np.array(place.get_xdata()) * store.a) == pytest.approx([store.at[3]] * 2)
+
+
 def test_frames_of_a_whole_domain_say_which_row_their_lines_show():
     from tehl_taichi.view.figures.frames import Frames
 

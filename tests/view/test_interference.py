@@ -71,6 +71,18 @@ def test_the_picture_has_the_colour_of_the_film(built_in, place):
     assert "white light, refractive index 1.47" in " ".join(figure.get_suptitle().split())
 
 
+def test_the_scale_has_the_colour_of_its_film_in_micrometres():
+    """Of oil with the density and so the refractive index of the middle."""
+    store, white = made("ball-on-disc"), Light()
+    scale = FigureStyle().drawn(lambda: interference(FigureStyle(), Moments(store), white)).axes[1]
+    image, index = scale.images[0], float(scale.get_xlabel().partition(" index is ")[2].partition(",")[0])
+    low, top = image.get_extent()[:2]
+    assert scale.get_xlabel().startswith("film (µm)")
+    assert (low, top * 1e-6) == pytest.approx((0.0, Moments(store).film_top([0])))
+    h = np.linspace(low, top, image.get_array().shape[1]) * 1e-6
+    assert np.abs(image.get_array()[0] - white_light(index * h)).max() < 0.05 and index > 1.47
+
+
 def test_options_without_effect_are_refused():
     assert light() is None and light("chromatic").kind == "chromatic"
     for given, words in (((None, 1.5), "refractive_index = 1.5"), (("chromatic", None, 5e-7), "wavelength = 5e-07"),

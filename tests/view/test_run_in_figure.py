@@ -4,6 +4,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import made_run_in
+import numpy as np
 import pytest
 
 import tehl_taichi as tehl
@@ -34,6 +35,20 @@ def test_it_shows_heights_stresses_and_passages_of_both_bodies_that_flowed():
     assert [one.get_height() for one in strains.patches] == pytest.approx([0.1, 0.001, 0.02, 0])
     assert under.get_title() == "body b: residual σ_xx" and along.yaxis_inverted() and under.yaxis_inverted()
     assert under.collections[0].get_clim() == along.collections[0].get_clim()
+
+
+def test_residual_stresses_are_those_of_the_profile_in_megapascals():
+    state = made_run_in.flowed()
+    figure, found = drawn(state), profiles(tehl.scene("gear"), state)
+    for body, axes in zip(found, (figure.axes[2:4], figure.axes[6:8])):
+        for ax, (name, stress) in zip(axes, body.residual.items()):
+            image = ax.collections[0]
+            places = image.get_coordinates()
+            assert ax.get_title() == f"body {body.body}: residual {name}"
+            np.testing.assert_allclose(image.get_array().reshape(places.shape[:2]) * 1e6, stress.T, atol=1.0)
+            np.testing.assert_allclose(places[0, :, 0] * 1e-6, body.x)
+            np.testing.assert_allclose(places[:, 0, 1] * 1e-6, body.depths)
+    assert figure.axes[-1].get_ylabel() == "MPa"
 
 
 def test_one_body_that_flowed_has_four_panels():

@@ -76,6 +76,7 @@ def test_the_figure_shows_heights_in_micrometres(tmp_path):
     image, = ax.images
     np.testing.assert_allclose(image.get_array(), f.whole_heights * 1e6, atol=1e-9)
     assert image.get_extent() == pytest.approx([-60, 60, -75, 75]) and ax.get_aspect() == 1.0  # a dot around every point
+    assert image.origin == "lower", "the first row, of the smallest y, is the lowest"
     assert bar.get_ylabel() == "height (µm)" and image.cmap.name == palette.HEIGHT and ax.get_ylabel() == "y (µm)"
     low, high = f.measures.low * 1e6, f.measures.high * 1e6
     assert drawn(made).get_suptitle() == f"gear: heights of surface a, {low:.3g} to {high:.3g} µm"

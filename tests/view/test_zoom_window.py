@@ -114,7 +114,7 @@ def test_the_report_has_a_section_with_both_grids(store):
     section, = zoom_plots.section(store)
     lines, maps = (block.data["figures"] for block in section.shown)
     run, fine = lines[0].traces[:2]
-    assert len(fine["x"]) == COLUMNS and np.allclose(fine["y"], values(3, 1.0)[:, 0])
+    assert np.allclose(np.array(fine["x"]) * store.a, 2e-4 + X) and np.allclose(fine["y"], values(3, 1.0)[:, 0])
     assert run["x"][0] >= fine["x"][0] and run["x"][-1] <= fine["x"][-1]
     assert [figure.name for figure in maps] == ["zoom-pressure", "zoom-film"]
     assert maps[0].traces[0]["z"].shape == (2 * ROWS - 1, COLUMNS)

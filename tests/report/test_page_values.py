@@ -1,0 +1,106 @@
+"""Figures of pages have the values of the store and of the search, in the unit of their axis, where they belong."""
+
+from types import SimpleNamespace
+
+import made_results
+import numpy as np
+import pytest
+from made_figures import Made, made
+
+import tehl_taichi as tehl
+from tehl_taichi.report import bearing_page, chain_plot, fatigue_plots, flank_page, map_plots, passage_plots
+from tehl_taichi.report.searches import searches
+from tehl_taichi.runs.bearing.stored_bearing import Bearing
+from tehl_taichi.scene.scales import Scales
+
+pytest.importorskip("plotly")
+
+
+@pytest.fixture(scope="module")
+def store(thermal):
+    return tehl.open(thermal).store
+
+
+@pytest.fixture(scope="module")
+def search(store):
+    return searches(store)[0]
+
+
+def named(traces, begin):
+    return next(trace for trace in traces if trace.get("name", "").startswith(begin))
+
+
+def test_histories_are_over_the_position_in_half_widths(store):
+    found, a = passage_plots.histories(store), Scales.of(store.scene).a
+    for trace in found.traces:
+        np.testing.assert_allclose(np.array(trace["x"]) * a, store.scalar("feature_x")[1:])
+    for trace, name, factor in zip(found.traces, ("p_max_Pa", "h_min_m"), (1e9, 1e-6)):
+        np.testing.assert_allclose(np.array(trace["y"]) * factor, store.scalar(name)[1:])
+
+
+def test_stresses_of_the_critical_point_are_over_the_position_in_half_widths(search):
+    from tehl_taichi.fatigue.findley import shear_path
+
+    history, a = search.result.worst, Scales.of(search.scene).a
+    trace = named(fatigue_plots.worst_points(search)[0][0].traces, "normal to")
+    np.testing.assert_allclose(np.array(trace["x"]) * a, history["x_a"][:-1])
+    np.testing.assert_allclose(np.array(trace["y"]) * 1e6, shear_path(history["stress"], history["normal"])[2][:-1])
+
+
+def test_the_critical_point_is_marked_in_the_section_at_its_place(search):
+    section, over = fatigue_plots.depth(search)
+    deep = search.result.numbers["below"]
+    mark = named(section.traces, "critical point")
+    assert (mark["x"][0], mark["y"][0]) == pytest.approx((deep["x_m"] * 1e6, deep["depth_m"] * 1e6)) and deep["x_m"] < 2e-5
+    assert named(over.traces, "below")["y"][0] == pytest.approx(deep["depth_m"] * 1e6)
+
+
+def test_stresses_under_the_feature_and_of_the_smooth_contact_have_one_unit(store, search):
+    chain, = chain_plot.figures(store, search)
+    result, stresses = search.result, [trace for trace in chain.traces if trace["xaxis"] == "x2"]
+    for trace, values in zip(stresses, (result.findley_stress_under_row.max(axis=1), result.findley_stress_contact_alone)):
+        np.testing.assert_allclose(np.array(trace["x"]) * 1e6, values)
+        np.testing.assert_allclose(np.array(trace["y"]) * 1e-6, result.row_depths)
+
+
+def test_shares_of_a_rough_surface_are_per_cent(search, monkeypatch):
+    curves = [("surface a", np.array([0.5, 1.0]), np.array([0.6, 0.2]))]
+    monkeypatch.setattr(fatigue_plots.distribution_figure, "curves", lambda result: curves)
+    result = SimpleNamespace(numbers={"rough": True})
+    figure, = fatigue_plots.distribution(SimpleNamespace(result=result, on=""))
+    assert list(figure.traces[0]["y"]) == pytest.approx([60.0, 20.0]) and "%" in figure.layout["yaxis"]["title"]["text"]
+
+
+@pytest.mark.parametrize("built_in", ["ball-on-disc", "ball-bearing"])
+def test_a_map_has_its_field_at_its_places(built_in):
+    """Also of a wide ellipse, whose long axis is to the right; the film of places upstream is another one than downstream."""
+    store = Made(made(built_in).scene)
+    grown = store.fields
+    store.fields = lambda n, names: {name: values * (1 + 0.1 * store.x[:, None] / store.a)
+                                     for name, values in grown(n, names).items()}
+    lying = built_in == "ball-bearing"
+    for figure, factor in zip(map_plots.maps(store), (1e9, 1e-6)):
+        heat = figure.traces[0]
+        z, field = np.array(heat["z"]).T, store.fields(0, [figure.name[4:]])[figure.name[4:]]
+        for i, j in ((0, 0), (3, -2), (-1, 5)):
+            x, y = np.array(heat["x"])[i] * store.a, np.array(heat["y"])[j] * store.a
+            x, y = (y, x) if lying else (x, y)
+            at = np.argmin(np.abs(store.x - x)), np.argmin(np.abs(store.y - abs(y)))
+            assert z[i, j] * factor == pytest.approx(field[at]), figure.name
+
+
+def test_a_page_of_a_flank_has_the_films_and_points_of_its_positions(tmp_path):
+    found = tehl.open(made_results.flank(tmp_path))
+    film = flank_page.figures(found)[0]
+    centre = named(film.traces, "steady, centre")
+    values = [(at.x_pl, summary["steady"]["h_c_m"]) for at, _, summary in found.rows if summary]
+    assert list(zip(centre["x"], centre["y"])) == [pytest.approx((x * 1e3, h * 1e6)) for x, h in values]
+    letters = {one["text"]: one["x"] for one in film.layout["annotations"]}
+    assert letters == pytest.approx({name: x * 1e3 for name, x in found.points.items()})
+
+
+def test_a_page_of_a_bearing_names_the_ring_with_the_thinner_film(tmp_path):
+    found = tehl.bearing("6206", load=3000.0, run=False, folder=tmp_path / "b")
+    films = {"inner": 4e-7, "outer": 3e-7}
+    rings = {ring: {**one, "summary": {"steady": {"h_c_m": films[ring]}}} for ring, one in found.rings.items()}
+    assert "0.3 µm at the outer ring" in bearing_page.answer(Bearing(found.folder, {**found.record, **rings})).headline
