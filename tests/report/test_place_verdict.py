@@ -3,7 +3,7 @@
 import made_results
 import pytest
 
-from tehl_taichi.report import place_verdict
+from tehl_taichi.report import place_sections, place_verdict
 from tehl_taichi.runs import place_warnings
 from tehl_taichi.values.coded_warning import CodedWarning, lists
 
@@ -53,6 +53,7 @@ def test_the_thinnest_film_is_named_with_its_place():
     steady = [{"steady": {"h_min_m": film, "error": {"h_min_m": 2e-9}}} for film in (3e-7, 1e-7, 2e-7)]
     rows = [(name, 1e9, summary) for name, summary in zip("ABCD", [*steady, None])]
     assert place_verdict.thinnest(rows) == ("0.1000 ± 0.0020 µm", "B") and place_verdict.thinnest(rows[3:]) is None
+    assert place_sections.critical_number(rows, []) == 1 and place_sections.critical_number(rows[3:], []) is None
 
 
 def test_a_place_is_judged_by_its_resolved_part():
@@ -70,6 +71,15 @@ def test_a_place_is_judged_by_its_resolved_part():
     (0.9, ("Probably not: the index stays below 1, but over the whole passage its error is unknown.", "no"))])
 def test_an_index_that_exceeds_1_only_later_decides_nothing(whole, expected):
     assert answer(D=search(whole, None, (0.8, 0.02)), E=search(0.7, 0.02))[:2] == expected
+
+
+def test_later_moments_count_by_their_worst_depth():
+    """At the surface the whole passage stays below 1, below it it does not."""
+    late = search(0.9, None, (0.8, 0.02))
+    late["below"] = made_results.fatigue(0.9, 1.7)["below"]
+    late["resolved"]["below"] = {**made_results.fatigue(0.8, 0.7)["below"], "error": {"Fi_max": 0.02}}
+    text, tone, sentences = answer(D=late, E=search(0.7, 0.02))
+    assert tone == "open" and text.endswith("and exceeds 1 later at D.") and any("Fi = 1.7" in one for one in sentences)
 
 
 def test_the_load_alone_comes_first():

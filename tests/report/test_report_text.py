@@ -7,6 +7,7 @@ import pytest
 from tehl_taichi.fatigue import judged_layers
 from tehl_taichi.report import number_text, scene_text, verdict
 from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import without_options
 from tehl_taichi.values.coded_warning import with_data
 
@@ -129,3 +130,50 @@ def test_ticks_have_no_prefix_without_a_unit():
     made = field_map("map", "A map.", [0, 1], [0, 1], np.zeros((2, 2)), "Viridis", "1", "x", "y")
     parts = [axis("oil.nu_40 (m2/s)"), made.layout["xaxis"], made.layout["yaxis"], made.traces[0]["colorbar"]]
     assert {part.get("exponentformat") for part in parts} == {"power"}
+
+
+@pytest.mark.parametrize("x, said", [(-0.5, "-0.50 a, that is 0.50 half-widths before the middle of the contact"),
+                                     (0.75, "0.75 a, that is 0.75 half-widths behind the middle of the contact"),
+                                     (0.001, "the middle of the contact")])
+def test_a_position_is_told_as_the_flow_meets_it(x, said):
+    """The flow goes to the right: the feature enters at negative positions."""
+    assert verdict._place(x) == said
+
+
+def test_shares_of_rough_surfaces_are_per_cent_with_their_error():
+    from fake_cases import rough_search
+
+    assert verdict._spread({"b": rough_search()}) == [
+        "Surface b: 12.0 ± 5.0 % of it has Fi > 1; the largest of 130 points is 1.7."]
+
+
+def test_what_yields_and_what_ran_in_is_told_with_its_own_numbers():
+    mises = {"max_Pa": 2.41e9, "depth_m": 9e-5, "surface": "a", "yield_stress_Pa": 2.2e9, "yields": True}
+    said, = verdict._yielding({"fatigue": {}, "von_mises": mises})
+    assert said.startswith("The von Mises stress reaches 2.41 GPa") and "more than" in said
+    ran = {"passages": 3, "plastic_strain_max": 0.01, "height_before_m": 1.5e-6, "height_after_m": 1.2e-6,
+           "surface_change_max_m": 3e-7, "residual_min_Pa": -4.1e8, "residual_max_Pa": 1.2e8}
+    said, = verdict._run_in({"run_in": ran})
+    assert "the height is 1.2 µm (1.5 µm before)" in said and "residual stress is -410 to 120 MPa" in said
+
+
+def test_the_smooth_contact_has_its_largest_index_at_its_depth_and_another_at_the_surface():
+    alone = {"Fi_max": 0.93, "surface_Fi_max": 0.61, "depth_m": 1.8e-4, "error": {"Fi_max": 0.01, "surface_Fi_max": 0.01}}
+    said, = verdict._alone_words({"a": {**made_results.fatigue(), "contact_alone": alone}})
+    assert "Fi = 0.930 ± 0.010 at 180 µm below surface a" in said and "and 0.610 ± 0.010 at surface a" in said
+
+
+def test_the_film_of_a_passage_without_an_index_is_that_of_the_passage():
+    steady = {"h_c_m": 4.1e-7, "h_min_m": 3.2e-7, "p_max_Pa": 1.2e9}
+    summary = {"steady": steady, "transient": {"h_min_m": 1.1e-7, "p_max_Pa": 2.3e9}}
+    headline, *_, sentences = verdict._of_film(summary, scene("gear"))[1:]
+    assert headline.startswith("The least film is 0.11 µm, the largest pressure 2.3 GPa") and "0.41 µm" in sentences[0]
+
+
+def test_speeds_and_half_axes_are_of_their_surface_and_direction():
+    text = " ".join(scene_text.words(scene("gear").replace(srr=-0.12, speed=10.0)))
+    assert "move at 9.4 m/s (a) and 10.6 m/s (b): mean 10 m/s" in text
+    wide = scene("ball-bearing")
+    s = Scales.of(wide)
+    half_axes = (number_text.value_text(size, unit="m") for size in (s.a, s.b))
+    assert "half-axes {} along x and {} across".format(*half_axes) in " ".join(scene_text.words(wide)) and s.b > s.a
