@@ -196,6 +196,22 @@ def test_a_study_shows_its_results_and_what_failed(pages):
     assert "feature height 0.5 to 1.5 µm: 3 values in place of that below" in seen.text
 
 
+def test_cells_and_bars_of_a_study_are_those_of_their_cases(study):
+    """By the made-up formula; some cases exceed the limit, so the answer is open."""
+    from tehl_taichi.report import study_page, study_plots
+
+    figures = {figure.name: figure for figure in study_plots.figures(study)}
+    cells, lines = np.array(figures["judged_Fi-map"].traces[0]["z"]), figures["judged_Fi-lines"].traces
+    shape = [list(dict.fromkeys(study.plan.changes(n)[key] for n in range(9))) for key in study.plan.keys]
+    for n in range(9):
+        srr, height = (study.plan.changes(n)[key] for key in ("srr", "feature.height"))
+        i, j = (values.index(one) for values, one in zip(shape, (srr, height)))
+        assert n == 5 or cells[j, i] == pytest.approx(0.5 + 3e5 * height - srr)
+    bars = [one for trace in lines for one in trace.get("error_y", {"array": []})["array"] if one is not None]
+    assert bars == [0.04] * 3, "of the lowest features alone"
+    assert study_page._answer(study).tone == "open"
+
+
 def test_curves_of_a_study_are_over_the_key_with_more_values(tmp_path):
     """A traction curve over slip, a line for each temperature, though the temperatures were named first; its values by hand."""
     from tehl_taichi.report import study_plots
