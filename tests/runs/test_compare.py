@@ -1,8 +1,10 @@
 """Runs side by side: what differs, which numbers, one figure."""
 
+import functools
 import json
 
 import made_results
+import numpy as np
 import pytest
 from small_stores import SMALL, store
 from tehl_cli.main import app
@@ -173,6 +175,25 @@ def test_whole_domains_are_compared_along_the_row_of_the_largest_pressure(tmp_pa
         assert line.get_ydata() == pytest.approx(curve.store.fields(curve.entry, ["pressure"])["pressure"][:, 0] / 1e9)
     assert "gear: along y = -362 µm, through the largest pressure, feature at +0.50 a" in title
     assert labels == ["srr = -0.12", "srr = 0.12"]
+
+
+@pytest.mark.parametrize("changes, along", [({"srr": 0.05}, "x / a"), ({"load": 9e5}, "x (mm)")])
+def test_lines_of_the_figure_are_in_the_units_of_their_axes(tmp_path, monkeypatch, changes, along):
+    """Contacts of one width are drawn over x/a, others over mm."""
+    scenes = made_results.SMALL, made_results.SMALL.replace(**changes)
+    monkeypatch.setattr(made_results, "run", functools.partial(made_results.run, search=made_results.fatigue()))
+    figure, curves, *_ = shown_of(tmp_path, monkeypatch, *scenes)
+    axes = {ax.get_ylabel(): ax for ax in figure.axes}
+    for label, name, unit in (("pressure (GPa)", "pressure", 1e9), ("film (µm)", "film", 1e-6)):
+        assert axes[label].get_xlabel().startswith(along) or axes[label].get_xlabel() == ""
+        for line, curve in zip(axes[label].lines, curves, strict=True):
+            np.testing.assert_allclose(line.get_ydata() * unit, curve.along(name))
+            np.testing.assert_allclose(line.get_xdata() * (curve.a if along == "x / a" else 1e-3), curve.store.x)
+    for label, name, unit in (("p_max (GPa)", "p_max_Pa", 1e9), ("h_min (µm)", "h_min_m", 1e-6)):
+        for line, curve in zip(axes[label].lines, curves, strict=True):
+            np.testing.assert_allclose(line.get_ydata() * unit, curve.store.scalar(name)[1:])
+    for line, curve in zip(axes["Fi, critical row"].lines[::2], curves, strict=True):
+        np.testing.assert_allclose(line.get_xdata() * 1e-6, curve.store.map("feature_frame_x"))
 
 
 def test_rows_that_differ_are_said_in_the_legend(tmp_path, monkeypatch):

@@ -116,6 +116,8 @@ def test_the_figure_has_error_bars_and_a_logarithmic_axis_for_decades(tmp_path, 
     assert [ax.get_ylabel() for ax in axes] == ["friction coefficient", "central film (µm)", "largest film temperature (°C)"]
     film = axes[1].containers[0]
     assert list(film.lines[0].get_xdata()) == [0.0, 0.1, 0.2]
+    first = next(iter(curves.curves.values()))
+    assert film.lines[0].get_ydata() * 1e-6 == pytest.approx([row["h_c_m"] for row in first if row["h_c_m"]])
     low, high = film.lines[2][0].get_segments()[0]
     assert high[1] - low[1] == pytest.approx(2 * 0.02) and axes[2].get_xscale() == "linear"
     wide = traction("gear", [0.1], speed="0.1:10:3:log", path=tmp_path / "w.zarr", workers=1, work=made)
