@@ -47,6 +47,10 @@ def test_gears_are_named_in_units_that_people_read(flank):
     rows = dict(flank_page.gears(Flank.open(flank)))
     assert rows["normal module"] == "4.5 mm" and rows["centre distance"] == "91.5 mm" and rows["teeth of the gear"] == "24"
     assert rows["working pressure angle"] == "22.4388 °" and rows["the feature is on the"] == "pinion"
+    pinion, gear = (rows[f"radius of curvature at C, {wheel}"].split() for wheel in ("pinion", "gear"))
+    assert pinion[1] == gear[1] == "mm" and "flank of the pinion, 265.1 N m and " in Flank.open(flank).title
+    assert pinion[0].startswith("13.97") and float(gear[0]) / float(pinion[0]) == pytest.approx(24 / 16, rel=1e-4)
+    assert rows["transverse base pitch"] == f"{3.1415927 * 4.5 * 0.9396926:.6g} mm" and rows["tooth force"].endswith(" N")
     assert not any("Ra" in name or "helix" in name or "permissible" in name for name in rows), "not given"
 
 

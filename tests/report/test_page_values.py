@@ -104,3 +104,16 @@ def test_a_page_of_a_bearing_names_the_ring_with_the_thinner_film(tmp_path):
     films = {"inner": 4e-7, "outer": 3e-7}
     rings = {ring: {**one, "summary": {"steady": {"h_c_m": films[ring]}}} for ring, one in found.rings.items()}
     assert "0.3 µm at the outer ring" in bearing_page.answer(Bearing(found.folder, {**found.record, **rings})).headline
+
+
+def test_a_page_of_a_bearing_has_its_loads_by_azimuth_and_its_slip_across(tmp_path):
+    found = tehl.bearing("6206", load=3000.0, run=False, folder=tmp_path / "b")
+    loads, contacts = bearing_page.figures(found)
+    bars, record = dict(zip(loads.traces[0]["x"], loads.traces[0]["y"])), found.record
+    for azimuth, load in zip(record["azimuths_deg"], record["loads_N"]):
+        assert next(one for at, one in bars.items() if abs((at - azimuth + 180) % 360 - 180) < 1e-9) == load
+    assert "azimuth" in loads.layout["xaxis"]["title"]["text"] and "(N)" in loads.layout["yaxis"]["title"]["text"]
+    pressures, slips = ([trace for trace in contacts.traces if trace.get("yaxis", "y") == axis] for axis in ("y", "y2"))
+    for pressure, slip, ring in zip(pressures, slips, found.rings.values(), strict=True):
+        assert max(pressure["y"]) * 1e9 == pytest.approx(ring["p_Hertz_Pa"])
+        assert list(slip["y"]) == ring["slip"]["slip_m_s"] and slip["x"][-1] * 1e-3 == pytest.approx(ring["b_m"])
