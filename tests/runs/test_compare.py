@@ -2,6 +2,7 @@
 
 import functools
 import json
+from types import SimpleNamespace
 
 import made_results
 import numpy as np
@@ -216,6 +217,16 @@ def test_the_command_prints_and_writes(two, tmp_path):
     assert told["differs"]["operation.srr"] == [-0.12, 0.12] and told["figure"] == str(two[0].parent / "compare.png")
     again = CliRunner().invoke(app, ["compare", *map(str, two), "--json"])
     assert again.exit_code == 0 and json.loads(again.stdout)["figure"] == str(two[0].parent / "compare-2.png")
+
+
+@pytest.mark.parametrize("change, told", [("not separated", True), ("+12%", False)])
+def test_the_words_of_a_change_are_explained_where_they_stand(capsys, change, told):
+    from tehl_cli.compare_command import _results
+
+    line = SimpleNamespace(what="steady h_c", values=("0.40 um", "0.41 um"), change=change, same=False)
+    _results(SimpleNamespace(names=("a", "b"), lines=[line]))
+    shown = capsys.readouterr().out
+    assert change in shown and ("not separated: the error bars overlap" in shown) is told
 
 
 def test_settings_have_their_units():
