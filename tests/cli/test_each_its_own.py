@@ -376,6 +376,31 @@ def test_the_row_of_the_film_formula_stands_where_there_is_one(formula):
     assert found == ([("h_c by formula (Moes, line)", "0.1200 um")] if formula else [])
 
 
+@pytest.mark.parametrize("cut, said", [(None, "finished"),
+                                       (0.42, "finished, cut at 0.42 a; extend with: tehl resume 'my run.zarr'")])
+def test_the_state_of_a_finished_run_says_where_it_was_cut(cut, said):
+    from tehl_cli.show_commands import _state
+
+    assert _state(SimpleNamespace(writer=None, finished=True, cut=cut, path="my run.zarr", steps=7)) == said
+
+
+@pytest.mark.parametrize("good, right", [(True, True), (False, True), (True, False)])
+def test_the_doctor_is_content_only_with_all_values(monkeypatch, capsys, good, right):
+    import typer
+    from tehl_cli.show_commands import doctor
+
+    from tehl_taichi.runs import self_test
+
+    for name, found in (("self_test", (4.3e-7, good, 1.0)), ("plugins_checked", [("f.py", "mine", "1", "2", right)]),
+                        ("installation", {"what": "value"})):
+        monkeypatch.setattr(self_test, name, lambda found=found: found)
+    with pytest.raises(typer.Exit) as end:
+        doctor()
+    out, err = capsys.readouterr()
+    assert end.value.exit_code == (not (good and right)) and "smooth-line 0.4300 um" in " ".join(err.split())
+    assert ("WRONG" in out, "WRONG" in err) == (not right, not good)
+
+
 def test_profiles_lie_on_the_nodes_across_the_film(tmp_path):
     description = SMALL.replace(**{"thermal.on": True, "thermal.nodes": 7, "output.profiles": True})
     first = shot(0, description)

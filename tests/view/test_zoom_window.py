@@ -155,6 +155,8 @@ def test_paraview_gets_a_series_of_it(stored, tmp_path):
     series = ElementTree.parse(folder / "zoom.pvd").getroot()
     files = [one.get("file") for one in series.iter("DataSet")]
     assert len(files) == 2 and all((folder / file).exists() for file in files)
+    times = tehl.open(stored).store.time[list(ENTRIES)]
+    assert [float(one.get("timestep")) for one in series.iter("DataSet")] == list(times) and len(set(times)) == 2
     image = ElementTree.parse(folder / files[1]).getroot().find("ImageData")
     assert image.get("WholeExtent") == f"0 {COLUMNS - 1} 0 {ROWS - 1} 0 0"
     assert float(image.get("Origin").split()[0]) == pytest.approx(2e-4)
