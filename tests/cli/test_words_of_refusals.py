@@ -128,7 +128,7 @@ def full(*_, **__):
 
 
 @pytest.mark.parametrize("scan", [False, True])
-def test_new_where_nothing_can_be_written(tmp_path, monkeypatch, scan):
+def test_new_where_nothing_can_be_written(taichi_cpu, tmp_path, monkeypatch, scan):
     """Read-only, or full in the middle of the file: said in a sentence, nothing is left."""
     np.savetxt(tmp_path / "scan.csv", np.arange(30.0).reshape(5, 6), delimiter=",")
     words = ("new", tmp_path / "my.toml", *(("--scan", tmp_path / "scan.csv") if scan else ()))
