@@ -134,3 +134,20 @@ def test_a_dry_run_tells_the_contact_and_starts_nothing(tmp_path, monkeypatch):
     for said in ("half-width a = ", "half-axis b = ", "p_H = ", "h_c by formula: ", "elliptic", "0 steps",
                  "warning: fatigue.length has no effect here"):
         assert said in done.output, done.output
+
+
+@pytest.mark.parametrize("ratio", [0.3, 1.0, 2.0, 5.0])
+def test_light_loads_of_constant_oil_have_the_film_of_rigid_bodies(ratio):
+    """128 r (1 + 2/(3 r))^-2 (0.131 atan(r/2) + 1.683)^2 (U/W)^2 R_x, r = R_y/R_x (Brewe, Hamrock & Taylor 1979): the smallest
+    film, which is somewhat less than the central one, alike for all ellipses."""
+    shape = ratio * (1 + 2 / (3 * ratio)) ** -2 * (0.131 * math.atan(ratio / 2) + 1.683) ** 2
+    M = 0.01  # (U/W)^2 over the unit of length sqrt(2 U) is M^-2/4
+    assert nijenbanning(M, 1e-9, 1 / ratio) / (128 / 4 * shape / M**2) == pytest.approx(1.18, abs=0.06)
+
+
+def test_slip_of_either_sign_heats_the_inlet():
+    """Its part grows by 2.23 S^0.83."""
+    scenes = [tehl.scene("gear").replace(srr=srr) for srr in (0.0, 0.5, -0.5, 1.0)]
+    rolling, *both, fast = (1 / film_formula.inlet_heating(scene) - 1 for scene in scenes)
+    assert both[0] == pytest.approx(both[1]) and rolling > 0.01
+    assert (both[0] / rolling, fast / rolling) == pytest.approx((1 + 2.23 * 0.5**0.83, 3.23))

@@ -152,6 +152,15 @@ def test_helical_gears_by_the_transverse_section():
     assert {p.load for p in positions_along(mesh, count=8)} == {at.load} and at.load == pytest.approx(F_bn / length)
 
 
+@pytest.mark.parametrize("beta", [0.0, 20.0])
+def test_teeth_without_backlash_fill_the_working_pitch_circle(beta):
+    """Both transverse thicknesses there are one pitch, at the distance that the shifts give."""
+    mesh = Mesh(GearPair(z1=20, z2=60, m_n=3e-3, beta=beta, x1=0.4, x2=0.1))
+    d_w = [2 * mesh.r_b(wheel) / math.cos(mesh.alpha_w) for wheel in (1, 2)]
+    assert sum(d_w) / 2 == pytest.approx(mesh.pair.a_w)
+    assert sum(mesh.tip_thickness(wheel, d) for wheel, d in zip((1, 2), d_w)) == pytest.approx(math.pi * d_w[0] / 20)
+
+
 @pytest.mark.parametrize("values, why", [
     ({"torque": 0}, "gear.torque = 0 N m is out of range; allowed: more than 0 N m"),
     ({"n1": -5.0}, "gear.n1 = -5 1/min is out of range"),
