@@ -95,6 +95,12 @@ def test_in_pure_tension_it_goes_straight_down():
     assert path.why == "length" and max(step["K_II_range"] for step in path.steps) < 1e-6 * K[0]
 
 
+def test_the_last_piece_ends_at_the_length():
+    path = grown(plane(1e8), length=22 * MICRO)
+    assert [step["length_m"] for step in path.steps] == pytest.approx(np.array([5, 10, 15, 20, 22]) * MICRO)
+    assert path.points[-1].imag == pytest.approx(22 * MICRO) and path.why == "length"
+
+
 def test_the_first_kink_is_that_of_the_largest_tangential_stress():
     """A crack at 45 degrees in tension, asked near its tip: cos(t/2) (K_I sin t + K_II (3 cos t - 1)) = 0 (Erdogan & Sih)."""
     path = grown(plane(1e8), angle=45.0, first=50 * MICRO, step=MICRO, length=51 * MICRO, distance=0.02 * MICRO, elements=48)
@@ -362,12 +368,14 @@ def test_a_crack_is_near_the_surface_after_its_first_piece_alone(depth, doubted)
 
 
 def test_largest_numbers_of_a_crack_that_slows_down():
-    """Tension down to 12 µm alone: K_I is largest before the end; the start is at the only moment with all of the tension."""
-    falling = plane(lambda x, z: 1e8 - 2e8 * (z > 12e-6) + 0 * x)
-    entry = follow(falling, SCENE, CrackOptions(threshold=0.3e6, side="entry")).summary["sides"]["entry"]
+    """Tension down to 12 µm, pressure below: K_I is largest before the end; only the moment of the start has all of the
+    tension."""
+    falling = plane(lambda x, z: 1e8 - 2e8 * (z > 12e-6) + 0 * x, lambda x, z: -3e8 * (z > 12e-6) + 0 * x)
+    entry = follow(falling, SCENE, CrackOptions(side="entry")).summary["sides"]["entry"]
     K = [step["K_I_max"] for step in entry["K"]]
-    assert entry["K_I_max"] == max(K) > 1.5 * K[-1] and entry["stopped"] == "threshold"
+    assert entry["K_I_max"] == max(K) > K[-1] == 0.0 and entry["stopped"] == "closed"
     assert entry["moment_x_m"] == pytest.approx(-0.5 * 360 * MICRO)
+    assert entry["tension_depth_m"] == pytest.approx(12 * MICRO, abs=3 * MICRO), "between the depths of the table"
 
 
 def test_a_crack_opens_by_the_plane_modulus_of_its_body():

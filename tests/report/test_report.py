@@ -212,6 +212,22 @@ def test_cells_and_bars_of_a_study_are_those_of_their_cases(study):
     assert study_page._answer(study).tone == "open"
 
 
+def test_cells_of_the_figure_of_a_study_are_those_of_their_cases(study):
+    """Each over the values of its keys."""
+    from tehl_taichi.runs.sweep import study_figures
+    from tehl_taichi.view.figures.figure_style import FigureStyle
+
+    pytest.importorskip("matplotlib")
+    figure = FigureStyle().drawn(lambda: study_figures.heat_map(FigureStyle(), study, "judged_Fi"))
+    ax, image = figure.axes[0], figure.axes[0].images[0]
+    assert image.origin == "lower" and "roll" in ax.get_xlabel() and "height (µm)" in ax.get_ylabel()
+    columns, rows = ([label.get_text() for label in axis.get_ticklabels()] for axis in (ax.xaxis, ax.yaxis))
+    for n in (0, 2, 7):
+        srr, height = (study.plan.changes(n)[key] for key in ("srr", "feature.height"))
+        at = rows.index(f"{height * 1e6:g}"), columns.index(f"{srr:g}")
+        assert image.get_array()[at] == pytest.approx(0.5 + 3e5 * height - srr)
+
+
 def test_curves_of_a_study_are_over_the_key_with_more_values(tmp_path):
     """A traction curve over slip, a line for each temperature, though the temperatures were named first; its values by hand."""
     from tehl_taichi.report import study_plots
