@@ -8,7 +8,7 @@ import pytest
 from made_figures import Made, made
 
 import tehl_taichi as tehl
-from tehl_taichi.report import bearing_page, chain_plot, fatigue_plots, flank_page, map_plots, passage_plots
+from tehl_taichi.report import bearing_page, chain_plot, fatigue_plots, flank_page, map_plots, passage_plots, run_tables
 from tehl_taichi.report.searches import searches
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.scene.scales import Scales
@@ -117,3 +117,28 @@ def test_a_page_of_a_bearing_has_its_loads_by_azimuth_and_its_slip_across(tmp_pa
     for pressure, slip, ring in zip(pressures, slips, found.rings.values(), strict=True):
         assert max(pressure["y"]) * 1e9 == pytest.approx(ring["p_Hertz_Pa"])
         assert list(slip["y"]) == ring["slip"]["slip_m_s"] and slip["x"][-1] * 1e-3 == pytest.approx(ring["b_m"])
+
+
+def rows_of(block):
+    """{label: texts} of a table or of facts."""
+    return {label: texts for label, *texts in block.data["rows"]}
+
+
+def test_the_table_of_critical_points_has_the_numbers_of_its_labels(search):
+    deep = {**made_results.fatigue()["below"], "x_m": -7e-6, "y_m": 21e-6, "tau_amp_Pa": 4.4e8, "sigma_n_max_Pa": 3.1e7}
+    rows = rows_of(run_tables.worst_points({**made_results.fatigue(), "x_m": 8e-6, "y_m": 3e-6, "below": deep}, search.scene))
+    assert (rows["x of the feature"], rows["y of the feature"]) == (["8 µm", "-7 µm"], ["3 µm", "21 µm"])
+    assert (rows["shear amplitude"], rows["largest normal stress"]) == (["400 MPa", "440 MPa"], ["20 MPa", "31 MPa"])
+    assert rows["depth"][1] == "25 µm" and rows["largest principal stress"] == ["60 MPa"] * 2
+
+
+def test_numerics_have_the_numbers_of_their_labels(store):
+    """Steps in microseconds, errors of their own."""
+    scalars = {"dt_s": [0.0, 2.5e-6, 1.5e-6], "residual": [1e-7, 2e-7], "load_error": [3e-4, 1e-4], "mass_error": [4e-5, 5e-5]}
+    work = {"newton_steps": 31, "pressure_cycles": 470, "cycles_per_step_max": 22, "rejected_steps": 1}
+    made_up = SimpleNamespace(summary={"work": work, "wall_s": 3.0, "compile_s": 1.0}, scene=store.scene, x=store.x, y=store.y,
+                              steps=3, last_step=2, scalar=lambda name: np.array(scalars[name]))
+    rows = {label: text for label, (text,) in rows_of(run_tables.numerics(made_up)).items()}
+    assert rows["time step"] == "2.5 µs" and [rows[f"largest error of {name}"] for name in ("residual", "load", "mass")] == [
+        "2.0e-07", "3.0e-04", "5.0e-05"]
+    assert (rows["Newton steps"], rows["Krylov iterations"], rows["most in a step"]) == ("31", "470", "22")
