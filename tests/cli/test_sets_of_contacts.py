@@ -102,3 +102,11 @@ def test_a_target_error_is_a_share_or_a_percentage(text, share):
     from tehl_cli.run_commands import _share
 
     assert math.isclose(_share(text), share)
+
+
+def test_parts_of_the_time_are_shares_in_per_cent(capsys):
+    from tehl_cli.timing import print_budget
+
+    print_budget(SimpleNamespace(rows=lambda: [("passage", 7.5, 0.75), ("fatigue", 2.5, 0.25)]))
+    shown = capsys.readouterr().out
+    assert "75 %" in shown and "25 %" in shown and "7.50" in shown

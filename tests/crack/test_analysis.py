@@ -478,6 +478,17 @@ def test_lines_of_the_figure_are_those_of_their_labels(rolled):
     assert label.endswith(f"({side.start.sigma1 / 1e6:.0f} MPa)") and side.start.sigma1 > 1e8
 
 
+def test_what_is_kept_for_the_page_is_what_the_figure_draws(rolled):
+    from tehl_taichi.store.crack_file import _drawn
+
+    kept, side = _drawn(rolled), rolled.sides["entry"]
+    np.testing.assert_allclose(kept["position"] * Scales.of(SCENE).a, rolled.plane.centres[:-1])
+    for crack, found in zip((side.path.first, side.path.last), kept["sides"]["entry"]["K"], strict=True):
+        assert found["length"] == crack.faces.a
+        np.testing.assert_array_equal([found["K_I"], found["K_II"]], crack.K[:, :-1])
+    np.testing.assert_array_equal(kept["sides"]["entry"]["path"] @ [1, 1j], side.path.points)
+
+
 SIDE = {"opens": True, "sigma1_surface_Pa": 3.21e8, "start_x_m": -41 * MICRO, "moment_x_m": -180 * MICRO, "K_I_max": 2.4e6,
         "tension_depth_m": 33 * MICRO, "trajectory": {"lean": "with rolling", "chord_deg_at_um": {"10": 71.0, "20": 62.0}},
         "path": {"lean": "against rolling", "chord_deg_at_um": {"10": 54.0, "20": 45.0, "40": None}}, "length_m": 25 * MICRO,

@@ -86,6 +86,25 @@ def test_the_figure_shows_heights_in_micrometres(tmp_path):
     assert long.get_aspect() == "auto"
 
 
+def test_facts_of_a_map_and_rows_of_roughness_are_those_of_their_labels(tmp_path):
+    from tehl_taichi.report import surface_plots
+    from tehl_taichi.report.number_text import value_text
+    from tehl_taichi.scene import surface_roughness
+
+    made, f = scanned(tmp_path)
+    facts = dict(surface_plots.map_facts(f, made))
+    spread, low, high = (value_text(size, unit="m") for size in (f.measures.range, f.measures.low, f.measures.high))
+    assert facts["range"] == f"{spread}: {low} to {high}".replace("-", "−") and f.measures.low < 0 < f.measures.high
+    rough = scene("rough")
+    block, film = surface_plots.roughness(rough, {"lambda": 1.52, "error": {"lambda": 0.034}})
+    numbers = surface_roughness.to_dict(rough)["a"]
+    rows = {what: own for what, own, *_ in block.data["rows"]}
+    for what, key in (("mean height (Sa, Ra)", "Sa_m"), ("rms height (Sq, Rq)", "Sq_m"), ("range (Sz, Rz)", "Sz_m"),
+                      ("autocorrelation length along x", "length_x_m"), ("along y", "length_y_m")):
+        assert rows[what] == value_text(numbers[key], unit="m"), what
+    assert film.data["rows"] == [("λ = h_c/Sq", "1.520 ± 0.034")]
+
+
 def test_it_is_drawn_where_something_passes(tmp_path):
     from tehl_taichi.view.figures.run_figures import write_all
 
