@@ -1,6 +1,7 @@
 """Flanks, bearings, cams and studies side by side: by position, held against error bars."""
 
 import json
+from types import SimpleNamespace
 
 import made_results
 import pytest
@@ -212,3 +213,13 @@ def test_printed_units_are_those_that_numbers_are_brought_to(columns):
             assert column.factor == pytest.approx(FACTORS[unit]), column.head
         if column.name in place_table.CONTACT:
             assert column.factor == pytest.approx(FACTORS[place_table.CONTACT[column.name][1]]), column.name
+
+
+@pytest.mark.parametrize("unit, x, factor, label", [("Pa", 2e9, 1e-9, "pressure (GPa)"), ("m", 3e-4, 1e6, "pressure (µm)"),
+                                                    ("", 0.1, 1.0, "pressure")])
+def test_an_axis_is_in_a_unit_of_its_key(unit, x, factor, label):
+    from tehl_taichi.runs import compare_places_figure
+
+    tables, places = [SimpleNamespace(x_unit=unit, across="pressure")], [SimpleNamespace(x=one) for one in (x, -x / 2)]
+    found = compare_places_figure._axis(SimpleNamespace(tables=tables, places=places))
+    assert found == (pytest.approx(factor), label)

@@ -105,6 +105,22 @@ def test_facts_of_a_map_and_rows_of_roughness_are_those_of_their_labels(tmp_path
     assert film.data["rows"] == [("λ = h_c/Sq", "1.520 ± 0.034")]
 
 
+def test_a_page_covers_the_points_that_were_not_measured(tmp_path):
+    """Three beside the middle, in the file's rows 4 and columns 15 to 17."""
+    from tehl_taichi.report import surface_plots
+
+    values = np.random.default_rng(1).normal(0, 20, (30, 20))
+    values[4, 15:18] = np.nan
+    np.save(tmp_path / "holes.npy", values)
+    made, f = scanned(tmp_path, file=str(tmp_path / "holes.npy"))
+    heat, cover = surface_plots.picture(made).traces
+    rows, columns = np.nonzero(np.array(cover["z"]) == 1)
+    found = heights(made)
+    assert len(rows) == 3 and list(heat["x"]) == list(cover["x"]) and list(heat["y"]) == list(cover["y"])
+    for j, i in zip(rows, columns):
+        assert found.filled[i, j] and (cover["x"][i], cover["y"][j]) == pytest.approx((found.x[i] * 1e6, found.y[j] * 1e6))
+
+
 def test_it_is_drawn_where_something_passes(tmp_path):
     from tehl_taichi.view.figures.run_figures import write_all
 
