@@ -118,6 +118,7 @@ def test_the_report_has_a_section_with_both_grids(store):
     assert run["x"][0] >= fine["x"][0] and run["x"][-1] <= fine["x"][-1]
     assert [figure.name for figure in maps] == ["zoom-pressure", "zoom-film"]
     assert maps[0].traces[0]["z"].shape == (2 * ROWS - 1, COLUMNS)
+    assert np.allclose(np.array(maps[0].traces[0]["x"]) * store.a, 2e-4 + X)
 
 
 def test_histories_of_the_report_have_the_numbers_of_the_window(store):
