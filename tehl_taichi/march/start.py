@@ -101,6 +101,8 @@ def _spread(first, scene, scales):
         return first
     first.y, across = _rows(first.y, rows, scene, scales)
     first.fields = {key: np.ascontiguousarray(value[:, across]) for key, value in first.fields.items()}
+    for key in (key for key in first.fields if key.startswith("traction_y")):  # antisymmetric
+        first.fields[key][:, first.y < 0] *= -1
     for key, value in first.state.items():
         if key == "P" or key in FilmHeat.FIELDS:
             first.state[key] = np.ascontiguousarray(value[..., across, :])

@@ -160,6 +160,18 @@ def test_the_whole_domain_gives_the_same_as_the_half():
         np.testing.assert_allclose(whole.fields[name], both, rtol=2e-4, atol=2e-4 * np.median(both[both > 0]))
 
 
+def test_the_first_moment_of_the_whole_domain_has_the_mirrored_shear_across():
+    """A feature that has not come yet changes nothing; pressure drives the oil out to both sides."""
+    from tehl_taichi.march.passage import march
+
+    description = scene("ridge-on-ball").replace(**{"feature.shape": "cosine", "feature.width": 120e-6, **BALL,
+                                                    "rheology.law": "limiting", "srr": 0.2, "thermal.on": False})
+    half, whole = (next(iter(march(description.replace(**{"feature.y": y})))).fields for y in (0.0, 1e-15))
+    for name in ("traction_y_a", "traction_y_b"):
+        assert np.abs(half[name]).max() > 1e5
+        np.testing.assert_array_equal(whole[name], np.hstack([-half[name][:, :0:-1], half[name]]))
+
+
 def test_a_feature_beside_the_axis_of_a_line_contact():
     """Two bumps at +y and -y are symmetric in themselves, and so is the whole domain."""
     from tehl_taichi.march.passage import march
