@@ -50,7 +50,7 @@ class DepthResult:
 
 
 def search(scene, passage, layers, early, progress):
-    """The DepthResult below the rows of the feature and of the worst points of `layers` (Layer), or below chosen rows.
+    """The DepthResult below the rows of the features and of the worst points of `layers` (Layer), or below chosen rows.
 
     On a whole domain also at all points of the worst depth, and below the rows of its worst points; early moments have their
     own worst depth.
@@ -70,9 +70,9 @@ def search(scene, passage, layers, early, progress):
 
 
 def _worst_rows(scene, passage, layers):
-    """Rows of the feature and of the worst points of `layers`; rows of a window, which are close, without those that are
+    """Rows of the features and of the worst points of `layers`; rows of a window, which are close, without those that are
     alike."""
-    rows = _rows(passage, [scene.features[0].y])
+    rows = _rows(passage, [f.centre_y for f in scene.features])
     near = ALIKE * min(max(f.reach, f.reach_y) for f in scene.features) if has_window(passage.reader) else 0.0
     for one in (found for both in layers for found in (both, both.early) if found):
         row, = _rows(passage, [one.worst.y])

@@ -147,6 +147,11 @@ class Feature(_KEYS):
         return self.kind.reach_y(self)
 
     @property
+    def centre_y(self):
+        """Position y (m) of the centre; 0 for transverse features, whose `y` has no effect."""
+        return 0.0 if self.transverse else self.y
+
+    @property
     def transverse(self):
         """True if the height does not vary along y."""
         return self.kind.transverse(self)

@@ -20,8 +20,8 @@ from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.values.interpolation import lagrange
 
-AROUND = 0.6       # half width (in a) of the part searched around one small feature: its stress does not reach farther
-MARGIN = 0.3       # distance (in a) searched beyond the rim of larger features
+AROUND = 0.6       # half width (in a) of the part searched around a small feature: its stress does not reach farther
+MARGIN = 0.3       # distance (in a) searched beyond the rim of a larger feature
 LOADED = 1.5       # material points are followed within this distance (in a) of the centre of the contact
 BLOCK_BYTES = 1e9  # memory of the histories held at once; more points are searched in blocks of y rows
 WHOLE = 1e-6  # cells: smaller distances from a node count as zero
@@ -36,7 +36,7 @@ class StressHistories:
     of the surface, m, and `entries`, the number of its entry.
 
     reader: has x, y (m), time (s), len, feature_x(n) (m) and fields(n, names) (SI); entry 0 is the steady start. positions:
-    (entries,) m, of the first feature. around: half width (in a) of the part around one small feature. surface: the
+    (entries,) m, of the first feature. around: half width (in a) of the part around a small feature. surface: the
     :class:`tehl_taichi.scene.moving_surfaces.MovingSurface` whose points these are, by default that of the first feature. box:
     :class:`tehl_taichi.fatigue.sought.Box` of the points to search, or None for all. sought: which of them are searched in full
     (:class:`tehl_taichi.fatigue.sought.Sought`).
@@ -97,12 +97,9 @@ class StressHistories:
 
     def _sides(self, axis):
         """Distances (m) searched on the negative and the positive side of the frame's origin, along `axis` ("x" or "y")."""
-        reach = [(at, f.reach if axis == "x" else f.reach_y) for f in self.scene.features
-                 for at in (self.passed(f) if axis == "x" else (f.y,))]
-        sides = (max(sign * at + r for at, r in reach) + MARGIN * self.a for sign in (-1, 1))
-        first = self.passed(self.scene.features[0]) if axis == "x" else (0.0,)
-        least = (self.around * self.a + max(0.0, *(sign * at for at in first)) for sign in (-1, 1))
-        return [max(*both) for both in zip(least, sides)]
+        far = [(at, max((f.reach if axis == "x" else f.reach_y) + MARGIN * self.a, self.around * self.a))
+               for f in self.scene.features for at in (self.passed(f) if axis == "x" else (f.centre_y,))]
+        return [max(sign * at + r for at, r in far) for sign in (-1, 1)]
 
     def passed(self, feature):
         """Places x' (m) of this surface under the centre of a feature when it enters and when it leaves the contact.

@@ -77,7 +77,7 @@ def room(plain, load, R):
         return {}
     a, _ = hertz.line(load, R, reduced_modulus(plain))
     end = hertz.gap_reaches(SPARE * max(f.top for f in plain.features) * R / a**2)
-    reach, grid = max(abs(f.y) + f.reach_y for f in plain.features), plain.grid
+    reach, grid = max(abs(f.centre_y) + f.reach_y for f in plain.features), plain.grid
     side = min(AROUND * reach / a, 20.0) if math.isfinite(reach) else 0.0
     ends = {"grid.x_min": (-end, end), "grid.x_max": (end, end), "grid.y_max": (side, side)}
     return {key: value for key, (value, far) in ends.items() if far > abs(getattr(grid, key.partition(".")[2]))}
