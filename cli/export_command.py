@@ -17,8 +17,8 @@ def export(
     format: str = typer.Option("csv", "--format", help="csv (tables), netcdf (one file) or vtk (a time series for ParaView)"),
     at: Optional[List[float]] = typer.Option(None, help="csv: centreline with the feature at this position, in half-widths a "
                                                         "(default: 0); repeatable"),
-    point: Optional[List[str]] = typer.Option(None, help="csv: history of the point X,Y of surface a, m, from the centre of "
-                                                         "the feature (like x_m, y_m in the fatigue summary); repeatable"),
+    point: Optional[List[str]] = typer.Option(None, help="csv: history of the point X,Y of the surface with the first "
+                                                         "feature, m (as x_m, y_m in the fatigue summary); repeatable"),
     out: Optional[Path] = typer.Option(None, help="file or folder to write (default: beside the store)"),
     force: bool = typer.Option(False, "--force", help="replace an earlier export"),
 ):

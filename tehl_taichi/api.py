@@ -824,7 +824,7 @@ def export(of: "Name | Run", format: str = "csv", path: Name | None = None, *, a
     at : float or sequence of float
         csv: positions of the feature in half-widths a for the centrelines; default: 0.
     point : (x, y) or sequence of (x, y)
-        csv: points of surface a in m from the centre of the feature, whose history is written.
+        csv: points of the surface with the first feature, whose history is written; m, measured as feature.x and feature.y.
     force : bool
         Replace an earlier export.
 

@@ -9,8 +9,8 @@ from tehl_taichi.fatigue.pressure_alone import constants_of, searched
 BOTH = ("feature_frame_x", "feature_frame_y")
 ROWS = "depths of rows"  # stands for fatigue_depth, or under_row_depth where depths are listed
 ARRAYS = {  # {name: (dimensions, unit, text)}, in the order of a store
-    "feature_frame_x": (BOTH[:1], "m", "along rolling, from the centre of the feature"),
-    "feature_frame_y": (BOTH[1:], "m", "across, from the centre of the contact"),
+    "feature_frame_x": (BOTH[:1], "m", "along rolling, as feature.x"),
+    "feature_frame_y": (BOTH[1:], "m", "across, as feature.y, from the middle of the contact"),
     "findley_stress": (BOTH, "Pa", "Findley stress"),
     "Fi": (BOTH, "1", "Findley index"),
     "sigma1_max": (BOTH, "Pa", "largest principal stress of the passage"),

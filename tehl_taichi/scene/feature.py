@@ -35,8 +35,8 @@ class SharedKeys:
     height: float = quantity(1.5e-6, "m", _about("height", "height"), -1e-3, 1e-3)
     width: float = quantity(200e-6, "m", _about("width", "size along x"), 1e-6, LARGEST)
     length: float = quantity(0.0, "m", _about("length", "size along y"), 0.0, LARGEST, infinite=True, usual=5e-4)
-    x: float = quantity(0.0, "m", "centre, ahead of the first feature", -LARGEST, LARGEST, usual=1e-4)
-    y: float = quantity(0.0, "m", "centre", -LARGEST, LARGEST, usual=1e-4)
+    x: float = quantity(0.0, "m", "centre, ahead of a first feature with x = 0", -LARGEST, LARGEST, usual=1e-4)
+    y: float = quantity(0.0, "m", "centre, from the middle of the contact", -LARGEST, LARGEST, usual=1e-4)
     extent_x: float = quantity(0.0, "m", _about("extent_x", "length of the patch"), 0.0, LARGEST, usual=5e-4)
     extent_y: float = quantity(0.0, "m", _about("extent_y", "width of the patch; 0: unlimited"), 0.0, LARGEST, usual=5e-4)
     taper: float = quantity(0.0, "m", _about("taper", "distance over which the heights fade out at the rim of the "
@@ -52,8 +52,8 @@ _KEYS: Any = type("_KEYS", (*OWN, SharedKeys), {})  # those of every shape
 class Feature(_KEYS):
     """Feature of a surface.
 
-    x and y of further features are measured from the first one (on the other surface: from its position when it is at X = 0).
-    `tehl scenes` lists the shapes and their keys. Heights in an array: :meth:`from_heights`.
+    x is measured from the centre of a first feature with x = 0 (on the other surface: from its position when it is at X = 0),
+    y from the middle of the contact. `tehl scenes` lists the shapes and their keys. Heights in an array: :meth:`from_heights`.
 
     Examples
     --------

@@ -113,7 +113,7 @@ def test_the_summary_and_the_table_have_it():
     part["error"], part["unknown"] = {"Fi_max": 0.02}, {}
     rows = dict(summary_rows.fatigue_rows(search))
     assert list(rows)[2] == "Fi_max while resolved (to 0.60 a)"
-    assert rows["at x, y from the feature centre, below while resolved"]
+    assert rows["at x, y (as feature.x, feature.y), below while resolved"]
     assert "Fi_max at the surface, whole passage" in rows and "Fi_max below the surface, at 25 um, whole passage" in rows
     assert list(dict(summary_rows.fatigue_rows(fatigue())))[:3] == [
         "Fi_max of the smooth contact, at 180 um", "Fi_max of the smooth contact at the surface", "Fi_max at the surface"]

@@ -107,7 +107,7 @@ def test_the_change_of_two_runs_is_told_where_it_means_something(made, monkeypat
     found = lines_of(*made[:2])
     p = [tehl.open(path).summary["transient"]["p_max_Pa"] for path in made]
     assert found["passage p_max"].change == f"{100 * (p[1] / p[0] - 1):+.2g}%" and found["findley stress"].change == "+19%"
-    for what in ("at x, y from the feature centre", "with kappa, sigma_eF", "passage film / surface a / surface b, largest"):
+    for what in ("at x, y (as feature.x, feature.y)", "with kappa, sigma_eF", "passage film / surface a / surface b, largest"):
         assert found[what].change == ""
     assert {line.change for line in lines_of(*made).values()} == {""}  # of three
 

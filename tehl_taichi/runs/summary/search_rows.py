@@ -155,7 +155,7 @@ def _point_rows(f, frame=""):
     """Rows of the worst point at the surface or below it."""
     low, high = f.get("pit_angles_deg", (None, None))
     pits = "" if low is None else f" (usual for pits: {low:g} to {high:g})"
-    rows = [SummaryRow("at x, y from the feature centre", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um", note=frame),
+    rows = [SummaryRow("at x, y (as feature.x, feature.y)", f"{f['x_m'] * 1e6:.1f}, {f['y_m'] * 1e6:.1f} um", note=frame),
             SummaryRow("critical plane, angle to the surface", f"{f['surface_angle_deg']:.1f} deg", note=pits),
             SummaryRow("shear amplitude, largest normal stress",
                        f"{f['tau_amp_Pa'] / 1e6:.1f}, {f['sigma_n_max_Pa'] / 1e6:.1f} MPa")]

@@ -74,13 +74,13 @@ def window_centreline(window, n):
 
 
 def history(reader, x, y):
-    """Table of every field at a point of surface a (m from the centre of the feature) while it is on the grid. Raises
-    SceneError if it never is.
+    """Table of every field at a point (m, measured as feature.x and feature.y) of the surface with the first feature, while it
+    is on the grid. Raises SceneError if it never is.
     """
     centres = np.nan_to_num(reader.scalar("feature_x"))
     entries = np.flatnonzero((centres + x >= reader.x[0]) & (centres + x <= reader.x[-1]))
     if not entries.size:
-        raise SceneError(f"the point {x:g} m ahead of the feature centre is never on the grid, which extends from "
+        raise SceneError(f"the point at x = {x:g} m of the surface is never on the grid, which extends from "
                          f"{reader.x[0]:g} to {reader.x[-1]:g} m")
     at = {name: reader.scalar(name)[entries] for name in ("time", "feature_x")}
     fields = [_at(reader, _flat(reader, n), centres[n] + x, y) for n in entries]

@@ -182,7 +182,7 @@ ROWS = {
     "passage h_min": ("um", lambda gear: [gear.fields["film"][1:].min()]),
     "Fi_max at the surface, whole passage": ("", lambda gear: [gear.store.map("findley_stress").max() / 400e6]),
     "findley stress": ("MPa", lambda gear: [gear.store.map("findley_stress").max()]),
-    "at x, y from the feature centre": ("um", lambda gear: [gear.summary["fatigue"][key] for key in ("x_m", "y_m")]),
+    "at x, y (as feature.x, feature.y)": ("um", lambda gear: [gear.summary["fatigue"][key] for key in ("x_m", "y_m")]),
     "critical plane, angle to the surface": ("deg", lambda gear: [gear.summary["fatigue"]["surface_angle_deg"]]),
     "shear amplitude, largest normal stress":
         ("MPa", lambda gear: [gear.summary["fatigue"][key] for key in ("tau_amp_Pa", "sigma_n_max_Pa")]),
