@@ -6,7 +6,6 @@ shows how far its effect reaches, and so how strongly its mirror images change i
 
 import numpy as np
 
-from tehl_taichi.scene import resolution
 from tehl_taichi.scene.scales import Scales
 
 INSIDE = 0.8  # a: at the ends of the contact the film changes much with little effect
@@ -15,7 +14,7 @@ MOMENTS = 16  # entries looked at: the change at a side is smooth in time (of 16
 
 def side_change(scene, reader):
     """Largest relative change of the film at the sides of the domain, against the steady start; 0 where the domain has no sides
-    that matter: without a passage, in a point contact, for features that do not vary along y or that reach the sides.
+    that matter: without a passage, in a point contact, for features of which one reaches the sides or does not vary along y.
 
     reader: has x (m), y (m), len and fields(n, names) (SI), with the steady start first.
     """
@@ -34,7 +33,6 @@ def _moments(entries):
 
 
 def _ends_inside(scene):
-    """Whether some feature varies along y, and all that do end inside the domain."""
-    scales = Scales.of(scene)
-    varying = [f for f in scene.features if not (f.transverse or resolution.misses_contact(f, scales))]
-    return bool(varying) and all(abs(f.y) + f.reach_y < scene.grid.y_max * scales.b for f in varying)
+    """Whether there are features, and all of them end inside the domain."""
+    side = scene.grid.y_max * Scales.of(scene).b
+    return bool(scene.features) and all(not f.transverse and abs(f.y) + f.reach_y < side for f in scene.features)

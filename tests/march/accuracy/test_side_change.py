@@ -61,7 +61,9 @@ def test_only_features_that_end_between_the_sides_of_a_line_contact_count():
                   scene("furrow-line"), gear.replace(**{"feature.y": 0.95 * edge})):
         assert side_change(other, films(other, last=[1.2], first=[1.2])) == 0.0
     there, = gear.replace(**{"feature.y": 0.95 * edge}).features
-    for both in ((*gear.features, there), (replace(there, y=-there.y),)):  # one of two, or at the other side
+    ridge, = gear.replace(**{"feature.shape": "ridge"}).features
+    # one of two, at the other side, or one of two that changes both sides by itself
+    for both in ((*gear.features, there), (replace(there, y=-there.y),), (*gear.features, ridge), (ridge, *gear.features)):
         other = replace(gear, features=both)
         assert side_change(other, films(other, last=[1.2], first=[1.2])) == 0.0
     assert side_change(gear, Films(gear, np.ones((1, 81, 9)))) == 0.0
