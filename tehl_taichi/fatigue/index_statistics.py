@@ -27,8 +27,8 @@ def weights(passage):
 
 def _under(passage, feature):
     """Mask (columns, rows) of points below a feature at some moment in the contact."""
-    ends = passage.passed(feature)
     x, y = passage.x, passage.y
+    ends = passage.passed(feature) or (x[0], x[-1])  # at rest: every point passes it
     across = np.full(y.size, True) if feature.transverse else np.abs(y - feature.y) <= feature.reach_y
     return (x >= min(ends) - feature.reach) & (x <= max(ends) + feature.reach), across
 

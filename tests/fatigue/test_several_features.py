@@ -7,7 +7,7 @@ import pytest
 from fatigue.stress.test_material_points import CELLS, Formula, gear
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import assessment
+from tehl_taichi.fatigue import assessment, index_statistics
 from tehl_taichi.fatigue.stress.histories import StressHistories
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
@@ -55,6 +55,17 @@ def test_the_part_around_each_is_as_wide():
 def test_the_part_around_a_feature_moves_with_it(y):
     (_, axis), (_, beside) = (searched(small((0, at))) for at in (0, y))
     np.testing.assert_allclose(beside, axis + y, atol=1e-9)
+
+
+def test_every_point_passes_a_feature_of_a_surface_at_rest():
+    scene = gear(srr=2.0)
+    cell = Formula(scene).a / CELLS
+    still = replace(scene.features[0], surface="b", y=4 * cell, width=4 * cell)
+    scene = replace(scene, features=(*scene.features, still))
+    passage = StressHistories(scene, reader := Whole(scene), reader.centres)
+    at = np.argmin(np.abs(passage.y - still.y))
+    assert (index_statistics.weights(passage)[:, at] == 1).all()
+    assert assessment.run(scene, reader).summary["statistics"]["points"] > passage.x.size
 
 
 def test_the_place_of_a_ridge_along_itself_changes_nothing():

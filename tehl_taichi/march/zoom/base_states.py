@@ -98,4 +98,5 @@ class BaseStates:
         """Mean density ratio (ny+1, nx+1) over the film thickness, from p (Pa) and T (deg C)."""
         if not self.heat:
             return rho_ratio(self.scene.film_oil, p, T)
-        return np.tensordot(ChebyshevNodes(len(T)).weights, rho_film(self.scene.oil, p, T), 1)
+        rho = np.broadcast_to(rho_film(self.scene.oil, p, T), T.shape)  # without expansion it depends on p alone
+        return np.tensordot(ChebyshevNodes(len(T)).weights, rho, 1)

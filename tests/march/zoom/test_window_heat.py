@@ -37,6 +37,13 @@ def test_a_window_as_coarse_as_the_run_gives_its_fields(as_coarse, name, within)
         assert np.abs(field - own).max() < within
 
 
+def test_oil_that_does_not_expand_has_a_window():
+    """Its density depends on the pressure alone."""
+    run, found = zoomed(1, **{"oil.expansion": "never", "time.x_end": -1.3})
+    own = run.items[found.entries[-1]].fields["pressure"][found.origins[-1] :][: found.window.nx + 1]
+    assert not found.ended and np.abs(found.fields["pressure"][-1] - own).max() < 2e6
+
+
 def test_the_hottest_place_is_that_of_the_window_or_of_the_run(as_coarse):
     run, found = as_coarse
     for name, within in (("film_max_C", 0.5), ("surface_a_max_C", 0.2), ("surface_b_max_C", 0.2)):
