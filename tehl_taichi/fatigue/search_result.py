@@ -1,5 +1,6 @@
 """Result of a fatigue search: its numbers and arrays, and their names in a store."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -116,17 +117,17 @@ class SearchResult:
         return cls(summary, **_named(array, first), resolved=part, other=other)
 
     @classmethod
-    def joined(cls, results):
+    def joined(cls, results: "Iterable[SearchResult]") -> "SearchResult":
         """The first SearchResult of one or two (a list), with the other one in it."""
         first, *others = results
         return replace(first, other=replace(others[0], other=None) if others else None)
 
-    def decided(self):
+    def decided(self) -> "SearchResult":
         """Result with the body first that decides the verdict, by the errors that are known so far."""
         each = self.by_surface
         return self.joined([each[name] for name in first_decides(self.summaries)])
 
-    def with_summaries(self, summaries):
+    def with_summaries(self, summaries: dict[str, dict]) -> "SearchResult":
         """Result with other {surface: summary}."""
         return self.joined([replace(one, summary=summaries[name]) for name, one in self.by_surface.items()])
 
