@@ -12,7 +12,7 @@ ARGUMENTS = {"--out": "path", "--force": "force=True", "--pixel-y": "pixel_y", "
                                                "format", "over")}}
 VALUES = ((re.compile(r"--grid (\d+)x(\d+)"), r"grid.nx=\1 and grid.ny=\2"), (re.compile(r"--grid (\d+)"), r"grid.nx=\1"),
           (re.compile(r"--zoom (\d+)"), r"zoom.factor=\1"), (re.compile(r"--precision (\w+)"), r"numerics.precision='\1'"),
-          (re.compile(r"--set (?=[\w.]+=)"), ""))
+          (re.compile(r"--(workers|threads) (\d+)"), r"\1=\2"), (re.compile(r"--set (?=[\w.]+=)"), ""))
 COMMAND, OPTION = re.compile(r"(`[^`]*`)"), re.compile(r"--[a-z]+(?:-[a-z]+)*")
 _typed = False
 

@@ -20,6 +20,7 @@ from tehl_taichi.errors import RuntimeUnavailable, brief
 ARCHES = ("cpu", "cuda", "vulkan")  # that the kernels have been checked on
 DRIVER = "libcuda.so.1"
 MOST_THREADS = 1024
+WORKER, IMPORTED = "tehl worker", 97  # name of its process, exit code of :func:`end_if_importing`
 _started = {}
 _starting = threading.RLock()  # Taichi's own start is not safe in two threads at once
 _home = None  # (process, thread) that Taichi was started in
@@ -87,6 +88,7 @@ def check(arch=None, threads=None):
     """Refuse an architecture or number of threads that this machine or process cannot have, without starting anything. Raises
     RuntimeUnavailable.
     """
+    end_if_importing()
     arch = chosen(arch)
     if arch not in ARCHES:
         raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
@@ -123,6 +125,14 @@ def start(arch=None, threads=None):
             return _same_start(arch, threads)
         _start(arch, threads)
     return dict(_started)
+
+
+def end_if_importing():
+    """End this process if it is a worker that imports the user's script, whose calls would start workers of their own."""
+    process = sys.modules.get("multiprocessing.process")
+    own = process and process.current_process()
+    if own and own.name == WORKER and getattr(own, "_inheriting", False):
+        os._exit(IMPORTED)
 
 
 def _start(arch, threads):

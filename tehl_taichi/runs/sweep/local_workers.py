@@ -15,16 +15,20 @@ from typing import Any
 
 from tehl_taichi.disk import memory_limit
 from tehl_taichi.engine import runtime
+from tehl_taichi.errors import RuntimeUnavailable
 from tehl_taichi.runs.sweep.job import LostJob, in_one_thread
 
 SHARE = 0.95  # of the part of a worker in the memory that is available
 PAUSE = 1.0  # s between two looks at that
 TRIES = 2
+READY = "ready"  # first message of a worker, which has imported what it needs
 DIED = "its worker died, also at the second attempt (killed, or out of memory)"
+GUARD = 'imports the script that started it, whose calls belong below `if __name__ == "__main__":`; or use --workers 1'
+COMPUTES, FAILS = f"workers cannot start: each {GUARD}", f"a worker cannot start, for the reason above; it {GUARD}"
 
 
 def results(work, jobs, workers, tick=None):
-    """Run jobs: see :func:`tehl_taichi.runs.sweep.pool.results`."""
+    """Run jobs: see :func:`tehl_taichi.runs.sweep.pool.results`. Raises RuntimeUnavailable if no worker can start."""
     runtime.cache_dir()  # else each worker would borrow its own, and leave it behind
     crew = LocalWorkers(workers, tick or (lambda: None))
     try:
@@ -47,8 +51,13 @@ class LocalWorkers:
             for pipe in wait(list(self.busy), PAUSE):
                 worker = self.busy.pop(pipe)
                 number, job = worker.job
-                if (answer := worker.answer()) is not None:
+                if (answer := worker.answer()) == READY:
+                    self.busy[pipe] = worker
+                    continue
+                if answer is not None:
                     self.idle.append(worker)
+                elif code := worker.own_end:
+                    raise RuntimeUnavailable(COMPUTES if code == runtime.IMPORTED else FAILS)
                 elif worker.tries < TRIES:
                     self._give(Worker(), work, number, job, worker.tries + 1)
                     continue
@@ -93,11 +102,12 @@ class Worker:
 
     job: tuple[int, Any]
     tries: int
+    ready = False
 
     def __init__(self):
         context = multiprocessing.get_context("spawn")  # a forked one would have Taichi, but none of its threads
         self.pipe, theirs = context.Pipe()
-        self.process = context.Process(target=_serve, args=(theirs,), daemon=True, name="tehl worker")
+        self.process = context.Process(target=_serve, args=(theirs,), daemon=True, name=runtime.WORKER)
         with _without_missing_script():
             self.process.start()
         theirs.close()
@@ -109,12 +119,19 @@ class Worker:
             self.pipe.send((work, job))
 
     def answer(self):
-        """Result of its job: the answer, a :class:`LostJob`, or None if the process died."""
+        """Result of its job: the answer, a :class:`LostJob`, or None if the process died; before that READY, once."""
         try:
-            return self.pipe.recv()
+            answer = self.pipe.recv()
+            self.ready = self.ready or answer == READY
+            return answer
         except (EOFError, OSError):
             self.process.join()
             return None
+
+    @property
+    def own_end(self):
+        """Exit code of a process that ended by itself before it was ready, else 0 (a signal has a negative code)."""
+        return 0 if self.ready else max(self.process.exitcode or 0, 0)
 
     def memory(self):
         """Bytes of memory that the process uses, 0 if unknown."""
@@ -143,6 +160,7 @@ def _serve(pipe):
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     threading.Thread(target=_end_with_the_sweep, daemon=True).start()
     with contextlib.suppress(EOFError, OSError):
+        pipe.send(READY)
         while True:
             work, job = pipe.recv()
             pipe.send(_done(work, job))

@@ -71,11 +71,12 @@ def sizes(workers=None, threads=None, scheduler=None, jobs=MOST, words="--thread
 
 def check(workers, threads, scheduler=None):
     """Raise the errors that :func:`results` would raise before its first job, including those of jobs in this process."""
+    from tehl_taichi.engine import runtime
+
+    runtime.end_if_importing()
     if scheduler is not None:
         from tehl_taichi.runs.sweep import dask_cluster
 
         dask_cluster.check(scheduler)
     elif workers == 1:
-        from tehl_taichi.engine import runtime
-
         runtime.check(threads=threads)
