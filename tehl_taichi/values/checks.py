@@ -88,10 +88,11 @@ def near_file(path):
 
 
 def choice(where, value, allowed):
-    """Refuse `value` unless it is one of `allowed`; names the nearest one."""
+    """Refuse `value` unless it is one of `allowed`; names the nearest one. Texts with spaces describe other values."""
     if value not in allowed:
+        each = list(filter(None, allowed))
         raise SceneError(f"{where} = {shown(value)} is not known; allowed: "
-                         f"{', '.join(filter(None, allowed))}{nearest(value, allowed)}")
+                         f"{', '.join(each)}{nearest(value, [one for one in each if ' ' not in one])}")
 
 
 def flag(where, value, other=""):

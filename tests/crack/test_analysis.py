@@ -227,6 +227,7 @@ def test_oil_inside_adds_its_pressure_to_the_faces():
     ({"step": 2e-4}, "longer than"), ({"first": 2e-4}, "longer than"), ({"threshold": -1.0}, "0, or at least 1000 Pa"),
     ({"face_friction": -0.1}, "at least 0"), ({"oil": 1.5}, "at most 1"), ({"oil": float("nan")}, "not a number"),
     ({"oil": "flwo"}, "did you mean 'flow'"), ({"oil": "much"}, "dry, film, flow, sealed, a share"),
+    ({"oil": "pressure"}, "pressure from 0 to 1$"),  # a text that describes values is no name
     ({"elements": 3}, "6 to 200"), ({"distance": -1e-6}, "1e-08"), ({"length": "long"}, "not a number")])
 def test_what_is_out_of_range_is_refused(wanted, said):
     with pytest.raises(SceneError, match=said):
