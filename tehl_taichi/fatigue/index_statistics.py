@@ -5,9 +5,11 @@ not.
 import numpy as np
 
 from tehl_taichi.fatigue.stress.averaging import is_mirrored
+from tehl_taichi.scene.rough_surfaces import is_rough
 
 QUANTILES = {"median": 0.5, "p90": 0.9, "p99": 0.99}
 NUMBERS = ("share_above_1", *QUANTILES)
+ALIKE = 1e-4  # of the largest index: a half domain has one of two mirrored points, a ridge one of all its rows
 SAMPLE = 256  # points whose cycles are counted
 DEPTHS = (0.02, 0.05, 0.1, 0.2, 0.5)  # a: the same on every grid, for error bars
 SEEN = 2.0  # times the smallest searched depth, half a cell: nearer to the surface no coarser grid has a number to compare with
@@ -37,11 +39,17 @@ def statistics(Fi, counts):
     """{number: value} of NUMBERS and "points"; Fi, counts: arrays of one shape, see :func:`weights`."""
     chosen = counts > 0
     values, each = Fi[chosen], counts[chosen]
-    order = np.argsort(values)
-    values, each = values[order], each[order]
-    at = (np.cumsum(each) - 0.5 * each) / each.sum()
+    one, of_one = _merged(values, each)
+    at = (np.cumsum(of_one) - 0.5 * of_one) / each.sum()
     return {"share_above_1": float(each[values > 1].sum() / each.sum()), "points": int(values.size),
-            **{name: float(np.interp(share, at, values)) for name, share in QUANTILES.items()}}
+            **{name: float(np.interp(share, at, one)) for name, share in QUANTILES.items()}}
+
+
+def _merged(values, each):
+    """(values in ascending order, their weights); those that are alike count as one, as a point and its mirror image do."""
+    _, place = np.unique(np.round(values / max(ALIKE * np.abs(values).max(), np.finfo(float).tiny)), return_inverse=True)
+    weights = np.bincount(place, each)
+    return np.bincount(place, values * each) / weights, weights
 
 
 def exceeded(Fi, counts):
@@ -61,18 +69,31 @@ def sample(counts):
 
 
 def below(passage, profiles, counts):
-    """Statistics at DEPTHS below the rows of `profiles` (:class:`tehl_taichi.fatigue.depth_profile.DepthProfile`): "by_depth",
-    and those of the depth with the largest 99th percentile, at least one cell deep. Between the searched depths the stress is
-    linear in the logarithm of the depth.
+    """Statistics at DEPTHS below the :func:`_counted` rows of `profiles`
+    (:class:`tehl_taichi.fatigue.depth_profile.DepthProfile`): "by_depth", and those of the depth with the largest 99th
+    percentile, at least one cell deep. Between the searched depths the stress is linear in the logarithm of the depth.
     """
-    rows = [int(np.argmin(np.abs(passage.y - profile.worst.y))) for profile in profiles]
-    each = np.concatenate([under_row(counts, row) for row in rows])
-    logs, f = np.log(profiles[0].depths), np.concatenate([profile.f for profile in profiles], axis=1)
+    found = _counted(passage, profiles)
+    each = np.concatenate([under_row(counts, row) for row, _ in found])
+    logs, f = np.log(profiles[0].depths), np.concatenate([profile.f for _, profile in found], axis=1)
     f = f / np.array(passage.strength.limits(profiles[0].depths))[:, None]
     depths = [share * passage.a for share in DEPTHS if logs[0] <= np.log(share * passage.a) <= logs[-1]]
     out = [{"depth_m": depth, **statistics(_at(logs, f, np.log(depth)), each)} for depth in depths]
     seen = [one for one in out if one["depth_m"] >= SEEN * profiles[0].depths[0]]
     return {**max(seen or out, key=lambda one: one["p99"]), "by_depth": out}
+
+
+def _counted(passage, profiles):
+    """[(row, profile)] of the rows in the middle of the features, or of all rows if the surface is rough: where few features
+    pass, further rows are searched by what is worst in them, which depends on rounding.
+    """
+    found = [(_row(passage, profile.worst.y), profile) for profile in profiles]
+    middle = {_row(passage, f.centre_y) for f in passage.scene.features}
+    return [one for one in found if one[0] in middle and not is_rough(passage.scene)] or found
+
+
+def _row(passage, y):
+    return int(np.argmin(np.abs(passage.y - y)))
 
 
 def under_row(counts, row):

@@ -95,7 +95,8 @@ def test_the_worst_depth_is_one_that_a_coarser_grid_sees(cell, chosen):
     depths = np.geomspace(0.5 * cell, 1.0, 12) * 1e-3
     profile = SimpleNamespace(depths=depths, f=2e5 / depths[:, None] ** 1.0 * np.ones(40), worst=SimpleNamespace(y=0.0))
     strength = SimpleNamespace(limits=lambda depths: [4e8] * len(depths))
-    found = index_statistics.below(SimpleNamespace(a=1e-3, y=np.zeros(1), strength=strength), [profile], np.ones((40, 1)))
+    passage = SimpleNamespace(a=1e-3, y=np.zeros(1), strength=strength, scene=NARROW)
+    found = index_statistics.below(passage, [profile], np.ones((40, 1)))
     assert found["depth_m"] == pytest.approx(chosen * 1e-3)
     assert max(one["p99"] for one in found["by_depth"]) >= found["p99"] and len(found["by_depth"]) > (chosen < 0.5)
 
@@ -222,6 +223,27 @@ def test_the_share_above_a_value_is_counted():
         assert share == pytest.approx(counts[Fi > value].sum() / counts.sum())
 
 
+def test_a_mirrored_half_has_the_percentiles_of_the_whole():
+    """A point that stands for two counts as both of them do, which differ by what the solver leaves."""
+    half = np.array([0.3, 0.8, 1.1, 1.2, 1.4])
+    whole = np.concatenate([half * (1 + 1e-7 * np.random.default_rng(3).standard_normal(5)), half])
+    one, both = (index_statistics.statistics(Fi, np.full(Fi.size, each)) for Fi, each in ((half, 2.0), (whole, 1.0)))
+    assert (one.pop("points"), both.pop("points")) == (5, 10)
+    assert one == pytest.approx(both, rel=1e-6) and index_statistics.statistics(np.zeros(3), np.ones(3))["p99"] == 0.0
+
+
+@pytest.mark.parametrize("rough", [False, True])
+def test_below_single_features_only_their_own_rows_count(monkeypatch, rough):
+    """Further rows are searched because of what is worst in them; on rough surfaces all count."""
+    monkeypatch.setattr(index_statistics, "is_rough", lambda scene: rough)
+    depths, rows = np.geomspace(1e-5, 1e-3, 9), np.linspace(-2e-4, 2e-4, 5)
+    profiles = [SimpleNamespace(depths=depths, f=np.full((9, 40), f), worst=SimpleNamespace(y=y)) for f, y in
+                ((8e8, rows[0]), (4e8, 0.0))]
+    passage = SimpleNamespace(a=1e-3, y=rows, strength=SimpleNamespace(limits=lambda at: [4e8] * len(at)), scene=NARROW)
+    found = index_statistics.below(passage, profiles, np.ones((40, 5)))
+    assert (found["points"], found["p99"]) == ((80, 2.0) if rough else (40, 1.0))
+
+
 def test_the_sample_is_spread_over_all_points():
     chosen = np.flatnonzero(index_statistics.sample(np.ones((100, 40))))
     assert chosen.size <= index_statistics.SAMPLE and np.ptp(np.diff(chosen)) == 0
@@ -238,7 +260,7 @@ def test_between_depths_the_stress_is_linear_in_the_logarithm_and_the_limit_that
 
     f = 1e8 * (1 + np.log(depths / top))[:, None] * np.ones(40)
     profile = SimpleNamespace(depths=depths, f=f, worst=SimpleNamespace(y=0.0))
-    passage = SimpleNamespace(a=1e-3, y=np.zeros(1), strength=SimpleNamespace(limits=limits))
+    passage = SimpleNamespace(a=1e-3, y=np.zeros(1), strength=SimpleNamespace(limits=limits), scene=NARROW)
     for one in index_statistics.below(passage, [profile], np.ones((40, 1)))["by_depth"]:
         assert one["p99"] == pytest.approx(0.25 if grows else 0.25 * (1 + np.log(one["depth_m"] / top)), rel=1e-6)
 
