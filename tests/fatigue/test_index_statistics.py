@@ -225,10 +225,10 @@ def test_the_share_above_a_value_is_counted():
 
 def test_a_mirrored_half_has_the_percentiles_of_the_whole():
     """A point that stands for two counts as both of them do, which differ by what the solver leaves."""
-    half = np.array([0.3, 0.8, 1.1, 1.2, 1.4])
-    whole = np.concatenate([half * (1 + 1e-7 * np.random.default_rng(3).standard_normal(5)), half])
+    half = np.array([0.3, 0.6, 0.8, 1.1, 1.2, 1.4])
+    whole = np.concatenate([half * (1 + 1e-7 * np.random.default_rng(3).standard_normal(6)), half])
     one, both = (index_statistics.statistics(Fi, np.full(Fi.size, each)) for Fi, each in ((half, 2.0), (whole, 1.0)))
-    assert (one.pop("points"), both.pop("points")) == (5, 10)
+    assert (one.pop("points"), both.pop("points")) == (6, 12)
     assert one == pytest.approx(both, rel=1e-6) and index_statistics.statistics(np.zeros(3), np.ones(3))["p99"] == 0.0
 
 
