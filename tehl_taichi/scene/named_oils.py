@@ -35,9 +35,6 @@ def from_values(values):
 
 def _from_sheet(name, known, values):
     """Oil from a data sheet. None marks a number that follows from it; a given number must agree with it."""
-    if known and not data_sheet.has_sheet(known):
-        raise SceneError(f"oil.name = {name!r} has its own viscosity and accepts no data sheet (oil.nu_40, nu_100); omit the "
-                         "name, or choose a new one")
     checks.text("oil.name", name, 100, empty=False)
     changed = {"source": ""} if data_sheet.has_sheet(values) else {}  # of a known oil: it is another one
     merged = {**known, **changed, "name": name, **values}

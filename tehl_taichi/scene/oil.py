@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.laws import conduction, density, viscosity
 from tehl_taichi.laws.law import declared, section
 from tehl_taichi.scene import data_sheet
@@ -28,17 +29,27 @@ def in_one_temperature(expansion, keeps):
 
 
 def with_named_numbers(values):
-    """Values of an oil, completed with the numbers of the oil that they name. The source of a new name is not that of the
-    reference oil.
+    """Values of an oil, completed with the numbers of the oil that they name. A new name, or a known one with another data
+    sheet, has a source of its own. Raises SceneError for an unknown name without numbers.
     """
     if "name" not in values:
         return {"name": data_sheet.NAME, **values} if data_sheet.has_sheet(values) else values
-    from tehl_taichi.scene.named_oils import NAMED  # it makes Oils
+    from tehl_taichi.scene import named_oils  # it makes Oils
 
-    name = values["name"]
-    if isinstance(name, str) and name in NAMED:
-        return {"source": NAMED[name].source, **NAMED[name].numbers, **values}
-    return values if data_sheet.has_sheet(values) else {"source": NO_SOURCE, **values}
+    name, own = values["name"], data_sheet.has_sheet(values)
+    if isinstance(name, str) and (known := named_oils.NAMED.get(name)):
+        return {"source": "" if own else known.source, **_beside(values, known), **values}
+    if values.keys() <= {"name", "source"}:
+        named_oils.check_new(name, values)
+    return values if own else {"source": NO_SOURCE, **values}
+
+
+def _beside(values, known):
+    """Numbers of a known oil beside the given values. Raises SceneError for a data sheet if the known oil has none."""
+    if data_sheet.has_sheet(values) and not data_sheet.has_sheet(known.numbers):
+        raise SceneError(f"oil.name = {known.name!r} has its own viscosity and accepts no data sheet (oil.nu_40, nu_100); omit "
+                         "the name, or choose a new one")
+    return known.numbers
 
 
 @documented

@@ -38,9 +38,21 @@ def test_a_new_oil_made_in_python_has_not_the_source_of_the_reference_oil():
     assert Oil(**sheet) == from_values(sheet) and Oil(**sheet).name == "data-sheet"
 
 
-def test_an_unknown_name_is_refused_with_those_that_are_known():
+def test_a_known_name_with_another_data_sheet_has_its_own_source_in_python_and_in_files():
+    sheet = {"nu_40": 1e-4, "nu_100": 1e-5}
+    given = {"name": "mineral-vg220", **sheet}
+    assert Oil(**given) == from_values(given) and Oil(**given).source.startswith("data sheet: 100 mm2/s at 40 deg C")
+    assert Oil(**given, source="mine").source == from_values({**given, "source": "mine"}).source == "mine"
+    for make in (from_values, lambda values: Oil(**values)):
+        with pytest.raises(SceneError, match="'reference-pao' has its own viscosity"):
+            make({"name": "reference-pao", **sheet})
+
+
+@pytest.mark.parametrize("make", [lambda name: scene("gear").replace(**{"oil.name": name}), Oil,
+                                  lambda name: Oil(name=name, source="mine"), lambda name: from_values({"name": name})])
+def test_an_unknown_name_without_numbers_is_refused_with_those_that_are_known(make):
     with pytest.raises(SceneError, match=", ".join(NAMED)):
-        scene("gear").replace(**{"oil.name": "nujol"})
+        make("nujol")
 
 
 @pytest.mark.parametrize("name, grade", [("mineral-vg68", 68), ("mineral-vg100", 100), ("mineral-vg150", 150),

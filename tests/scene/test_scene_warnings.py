@@ -32,7 +32,7 @@ def of_oil(oil, **changes):
     (lambda: GEAR.replace(**{"oil.k0": 0.2}).warnings(), ("reference-pao", "other numbers", "(k0)")),
     (lambda: scene("ball-on-disc").replace(**{"oil.alpha": 2e-8, "oil.eta0": 1.0}).warnings(), ("(eta0, alpha)",)),
     (lambda: GEAR.replace(**NEW).warnings(), ("oil.name = mine", "density, conductivity and heat capacity", "reference-pao")),
-    (lambda: of_oil(Oil(name="typo")), ("oil.name = typo", "all its numbers", "reference-pao")),
+    (lambda: of_oil(Oil(name="typo", G0=Oil.G0)), ("oil.name = typo", "all its numbers", "reference-pao")),
     (lambda: of_oil(BARUS), ("barus", "1.93 GPa", "0.5 GPa")),
     (lambda: of_oil(TABLE), ("oil.table ends at 1 GPa", "1.93 GPa", "slope")),
     (lambda: of_oil(YASUTOMI), ("yasutomi", "135 deg C", "inlet temperature of 90 deg C")),
