@@ -84,14 +84,20 @@ def axis(keys, columns):
         raise SceneError("keys that change together need equally many values: "
                          + ", ".join(f"{key} has {count}" for key, count in lengths.items()))
     rows = tuple(zip(*columns))
-    seen = set()
-    for row in rows:
-        if repr(row) in seen:
-            raise SceneError(f"{', '.join(keys)} = {', '.join(map(shown, row))} is given twice")
-        seen.add(repr(row))
+    check_apart(keys, rows, "is given twice")
     if not rows:
         raise SceneError(f"{', '.join(keys)} has no values")
     return Axis(tuple(keys), rows)
+
+
+def check_apart(keys, rows, why):
+    """Refuse a repeated row, for the reason `why`. Raises SceneError."""
+    seen = set()
+    for row in rows:
+        same = tuple(value if isinstance(value, (int, float)) else repr(value) for value in row)  # 1 is 1.0
+        if same in seen:
+            raise SceneError(f"{', '.join(keys)} = {', '.join(map(shown, row))} {why}")
+        seen.add(same)
 
 
 def parse(text):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.runs.sweep.axis_syntax import DIGITS, Axis, Span
+from tehl_taichi.runs.sweep.axis_syntax import DIGITS, Axis, Span, check_apart
 
 
 def latin_hypercube(columns, samples, seed=0, whole=()):
@@ -20,7 +20,9 @@ def latin_hypercube(columns, samples, seed=0, whole=()):
     for key, values in columns.items():
         shares = (rng.permutation(samples) + rng.random(samples)) / samples
         drawn.append([_choose(values, share, key in whole) for share in shares.tolist()])
-    return Axis(tuple(columns), tuple(zip(*drawn)))
+    rows = tuple(zip(*drawn))
+    check_apart(columns, rows, f"is drawn twice among {samples} samples; allowed: fewer samples, or a range low:high of a key")
+    return Axis(tuple(columns), rows)
 
 
 def _choose(values, share, whole):

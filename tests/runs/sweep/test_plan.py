@@ -129,6 +129,20 @@ def test_a_latin_hypercube_has_a_sample_in_every_part():
             plan(GEAR, over, **wrong)
 
 
+@pytest.mark.parametrize("over, samples, said", [
+    ({"srr": 0.1}, 3, "srr = 0.1 is drawn twice among 3 samples"), ({"srr": [0.1, 0.1]}, 2, "drawn twice"),
+    ({"srr": [1, 1.0]}, None, "srr = 1.0 is given twice"), ({"thermal.nodes": "5:7"}, 4, "nodes = [567] is drawn"),
+    ({"srr": [0.1, 0.2], "rheology.law": ["eyring", "newtonian"]}, 5, "srr, rheology.law = 0.., .* is drawn twice"),
+])
+def test_equal_cases_of_equal_values_are_refused(over, samples, said):
+    with pytest.raises(SceneError, match=said):
+        plan(GEAR, over, samples=samples)
+
+
+def test_samples_may_share_a_value_of_one_key():
+    assert plan(GEAR, {"srr": 0.1, "speed": "1:2"}, samples=3).count == 3 and plan(GEAR, {"srr": 0.1}, samples=1).count == 1
+
+
 def test_units_of_keys():
     keys = {"srr": "1", "height": "m", "speed": "m/s", "load": "N/m", "bodies.b.E": "Pa", "operation.u_a": "m/s",
             "rheology.law": "1", "feature.0.x": "m", "hertz_pressure": "Pa"}
