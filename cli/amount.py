@@ -1,9 +1,11 @@
 """Numeric options, with or without a unit."""
 
+import math
 from typing import Any
 
 import typer
 
+NONE_AT_0 = ("bending_limit", "torsion_limit", "inclusion")  # 0 in a scene: not given
 AUTO = "auto"  # as in tehl_taichi.values.quantity, which takes longer to import
 
 
@@ -20,13 +22,26 @@ def whole_or_auto(text) -> Any:
     return int(text) if text.strip().isdigit() else text.strip()
 
 
-def metres(option, value):
-    """Length in m of an option without a scene key; 0 if the option is not used. Raises SceneError."""
+def metres(option, value, low=-math.inf):
+    """Length in m, more than `low`, of an option without a scene key; 0 if the option is not used. Raises SceneError."""
     from tehl_taichi.values import checks, units
 
-    found = 0.0 if value is None else units.in_unit(option, value, "m")
-    checks.number(option, found, "m")
+    if value is None:
+        return 0.0
+    found = units.in_unit(option, value, "m")
+    checks.number(option, found, "m", low, strict=True)
     return found
+
+
+def refuse_zeros(options):
+    """Refuse options {name: value} with 0 that could mean "not given" only. Raises SceneError."""
+    from tehl_taichi.errors import SceneError
+    from tehl_taichi.values import units
+
+    for name in NONE_AT_0:
+        digits = units.split(str(options.get(name)))
+        if digits and float(digits[0]) == 0:
+            raise SceneError(f"--{name.replace('_', '-')} {f'0 {digits[1]}'.strip()} is out of range; allowed: more than 0")
 
 
 def number(about, default=None) -> Any:

@@ -36,7 +36,7 @@ def scan_of(path, unit, pixel):
     from tehl_taichi.scene.feature import Feature
     from tehl_taichi.scene.scan_scene import scan_keys
 
-    return Feature(**scan_keys(path, unit or "", metres("--pixel", pixel)))
+    return Feature(**scan_keys(path, unit or "", metres("--pixel", pixel, 0.0)))
 
 
 def feature_of(dent, scan, unit, pixel):

@@ -4,7 +4,7 @@ import functools
 from typing import Annotated, Optional
 
 import typer
-from tehl_cli.amount import also_number, amount, metres
+from tehl_cli.amount import also_number, amount, metres, refuse_zeros
 from tehl_cli.shared_options import sharing
 
 from tehl_taichi.errors import SceneError
@@ -57,6 +57,7 @@ def with_fatigue_options(command):
     """
     @functools.wraps(command)
     def with_depths(*first, depths, **given):
+        refuse_zeros(given)
         return command(*first, **given, depths=_depths(depths))
 
     return sharing(1, _options)(with_depths)

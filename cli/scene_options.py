@@ -12,8 +12,11 @@ NAMES = {"oil.name": "oil"}  # of options that are not the end of their key
 
 def changes_of(options, grid, settings):
     """{full key: value} of the used options and --set; SceneError if two of them contradict each other."""
+    from tehl_cli.amount import refuse_zeros
+
     from tehl_taichi.scene.aliases import resolve
 
+    refuse_zeros(options)
     used = [(key, value) for key, value in options.items() if value is not None]
     given = [(_typed(key, value), key, value) for key, value in used]
     given += [(f"--grid {grid}", key, value) for key, value in _grid(grid).items()]

@@ -97,7 +97,7 @@ def new(
     if scan is None:
         scene_file.new(file, base)
         return put(f"wrote {file}; run it with: tehl run {typed(file)}")
-    pixel, pixel_y = (metres(option, value) for option, value in (("--pixel", pixel), ("--pixel-y", pixel_y)))
+    pixel, pixel_y = (metres(option, value, 0.0) for option, value in (("--pixel", pixel), ("--pixel-y", pixel_y)))
     read, missing, refused = scan_scene.new(file, base, scan, unit, pixel, pixel_y, lay)
     fill = f"fill in feature.{' and feature.'.join(missing)} and " if missing else ""
     text = f"wrote {file} for {scan} ({read}); {fill}enter the values of your contact, oil and steel, then run: "

@@ -45,6 +45,9 @@ def resolve(given):
         spoken = [texts[0] for texts in chosen if texts]
         if len(spoken) > 1:
             _contradict(*spoken[:2])
+    loads = {key: found[key] for key in LOADS if key in found}
+    if loads and not any(_is_given(key, value) for key, (_, value) in loads.items()):
+        raise SceneError(f"{next(iter(loads.values()))[0]} is out of range: a contact needs a load; allowed: more than 0")
     return {key: value for key, (_, value) in found.items()}
 
 

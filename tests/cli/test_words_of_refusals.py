@@ -605,3 +605,30 @@ def test_an_error_of_python_without_plugins_names_none():
     import tehl_taichi.values.plugins  # noqa: F401  as every command loads it
 
     assert tehl_cli.entry._sentence(OverflowError("too large")) == "too large"
+
+
+@pytest.mark.parametrize("words, said", [
+    ("run gear --dry-run --load 0", "--load 0 is out of range"),
+    ("run gear --dry-run --hertz-pressure 0", "--hertz-pressure 0 is out of range: a contact needs a load"),
+    ("sweep mtm --dry-run --over load=0,9", "load = 0 is out of range"),
+    ("run gear --dry-run --set contact.moes_M=0", "contact.moes_M=0 is out of range"),
+    ("run gear --dry-run --torsion-limit 0", "--torsion-limit 0 is out of range; allowed: more than 0"),
+    ("fatigue a.zarr --bending-limit 0MPa", "--bending-limit 0 MPa is out"), ("fatigue a.zarr --inclusion 0", "more than 0"),
+    ("bearing 6206 --scan a.csv --pixel 0", "--pixel = 0 m is out of range; allowed: more than 0 m"),
+    ("new a.toml --scan a.csv --pixel-y 0", "--pixel-y = 0 m is out of"), ("bearing 6206 --balls 0", "allowed: 3 to 1000")])
+def test_a_zero_is_no_missing_value(tmp_path, monkeypatch, words, said):
+    monkeypatch.chdir(tmp_path)
+    Path("a.csv").write_text("0,1\n1,2\n")
+    done = here(*words.split())
+    assert done.returncode == 2 and said in " ".join(done.stderr.split())
+
+
+def test_a_load_of_zero_is_refused_in_a_traction_curve():
+    from tehl_taichi.runs.traction.traction_run import traction_plan
+
+    with pytest.raises(tehl.SceneError, match="contact.load = 0 in all cases is out of range"):
+        traction_plan(tehl.scene("mtm"), load=0)
+
+
+def test_a_load_of_zero_beside_another_load_removes_none():
+    assert tehl.scene("gear").replace(load=0.0, hertz_pressure=1e9).contact.hertz_pressure == 1e9

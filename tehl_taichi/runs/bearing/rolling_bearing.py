@@ -27,15 +27,16 @@ class RollingBearing:
     """
 
     element: str = choice(BALL, "rolling elements", (BALL, ROLLER))
-    diameter: float = quantity(0.0, "m", "diameter of a ball, or of a roller at half its length; needed", 0.0, 0.5, usual=1e-2)
-    count: int = count(0, "number of rolling elements; needed", 0, 1000)
-    pitch_diameter: float = quantity(0.0, "m", "diameter of the circle of the centres of the elements; needed", 0.0, LARGEST,
-                                     usual=5e-2)
+    diameter: float = quantity(None, "m", "diameter of a ball, or of a roller at half its length; needed", 0.0, 0.5,
+                               strict=True, usual=1e-2)
+    count: int = count(None, "number of rolling elements; needed", 3, 1000)
+    pitch_diameter: float = quantity(None, "m", "diameter of the circle of the centres of the elements; needed", 0.0, LARGEST,
+                                     strict=True, usual=5e-2)
     contact_angle: float = quantity(0.0, "deg", "contact angle without load; tapered rollers: of the outer ring", 0.0, 75.0)
     clearance: float = quantity(0.0, "m", "radial clearance in operation (of the whole diameter)", 0.0, 1e-3, usual=1e-5)
     osculation_inner: float = quantity(0.52, "", "groove radius over ball diameter, inner ring", 0.501, 0.7)
     osculation_outer: float = quantity(0.53, "", "groove radius over ball diameter, outer ring", 0.501, 0.7)
-    length: float = quantity(0.0, "m", "effective length of a roller; needed of rollers", 0.0, 1.0, usual=1e-2)
+    length: float = quantity(None, "m", "effective length of a roller; needed of rollers", 0.0, 1.0, strict=True, usual=1e-2)
     crown: float = quantity(math.inf, "m", "radius of the profile of a roller; inf: straight", 0.01, 100.0, infinite=True,
                             usual=3.0)
     taper: float = quantity(0.0, "deg", "whole angle of a tapered roller; 0: cylindrical", 0.0, 20.0)
@@ -54,7 +55,7 @@ class RollingBearing:
     def _check_needed(self):
         needed = (*NEEDED, "length") if self.rollers else NEEDED
         for key in needed:
-            if not getattr(self, key) > 0:
+            if getattr(self, key) is None:
                 raise SceneError(f"bearing.{key} is not given; a {self.element} bearing needs {', '.join(needed)}")
 
     def _check_element(self):
@@ -71,10 +72,11 @@ class RollingBearing:
 
     def _check_room(self):
         """Refuse more elements than fit on the pitch circle."""
-        chord = self.pitch_diameter * math.sin(math.pi / self.count) if self.count > 1 else math.inf
-        if self.count < 3 or chord < self.diameter:
+        if self.pitch_diameter * math.sin(math.pi / self.count) < self.diameter:
+            largest = self.pitch_diameter * math.sin(math.pi / 3)
+            allowed = f"3 to {self.most}" if self.most >= 3 else f"a diameter of at most {largest:.4g} m"
             raise SceneError(f"bearing.count = {self.count}: {self.element}s of {self.diameter:g} m on a circle of "
-                             f"{self.pitch_diameter:g} m; allowed: 3 to {self.most}")
+                             f"{self.pitch_diameter:g} m; allowed: {allowed}")
 
     @property
     def most(self):

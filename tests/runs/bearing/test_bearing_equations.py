@@ -235,6 +235,9 @@ def test_centrifugal_force_of_a_ball():
     ({}, "bearing.diameter is not given; a ball bearing needs diameter, count, pitch_diameter"),
     ({"element": "roller", **BALLS}, "bearing.length is not given; a roller bearing needs"),
     ({**BALLS, "count": 20}, r"bearing.count = 20: balls of 0.01 m on a circle of 0.05 m; allowed: 3 to 15"),
+    *(({**ROLLERS, key: 0}, f"bearing.{key} = 0( m)? is out of range; allowed: (more than 0|3 to)")
+      for key in ("diameter", "count", "pitch_diameter", "length")),
+    ({**BALLS, "count": 3, "diameter": 0.044}, r"circle of 0.05 m; allowed: a diameter of at most 0.0433 m"),
     ({**BALLS, "diameter": 9.5}, "bearing.diameter = 9.5 m is out of range.*did you mean"),
     ({**BALLS, "load": 0.0}, "without a load nothing touches"),
     ({**BALLS, "speed": 0.0}, "the elements do not roll, and there is no film"),
