@@ -1,9 +1,14 @@
 """Tables in text files of users: separator of the columns, cells, and rows that a wrong separator has cut."""
 
 import csv
+import difflib
 import re
 
 MARKS = ";", "\t", ","  # the first that a text has: with the others numbers may have decimal commas
+# {column that only one kind of table has: command or option that takes such a table}
+TAKEN_BY = {"x_pl_mm": "`tehl flank`", "angle_deg": "`tehl cam`",
+            **dict.fromkeys(("depth_mm", "depth_um", "depth_m"), "`tehl run --table`")}
+ALIKE = 0.7  # of the letters of a quantity, in the head of a column that was perhaps meant: angel and angle
 COMMA = re.compile(r"([-+]?\d*),(\d+(?:[eE][-+]?\d+)?)")  # a decimal one
 
 
@@ -55,3 +60,28 @@ def wrong_length(row, count, why="as in the line of names"):
         return ""
     return (f"has {len(row)} column{'s' * (len(row) != 1)}; allowed: {count}, {why} (a decimal comma needs a semicolon between "
             "columns)")
+
+
+def meant_column(quantity, heads):
+    """Text ' (did you mean ...?)' with the head that begins most like the name of a quantity, or nothing.
+
+    >>> meant_column("x_pl", ["R_mm", "xpl [mm]"]), meant_column("x_pl", ["R_mm"])
+    (" (did you mean 'xpl [mm]'?)", '')
+    """
+    found = [(_likeness(quantity, head), head) for head in heads]
+    most, head = max(found, default=(0.0, ""), key=lambda one: one[0])
+    return f" (did you mean {head!r}?)" if most >= ALIKE else ""
+
+
+def _likeness(quantity, head):
+    own, other = (re.sub("[^a-z0-9]", "", text.lower()) for text in (quantity, head))
+    return difflib.SequenceMatcher(None, own, other[:len(own)]).ratio()
+
+
+def taken_elsewhere(names, taker):
+    """Text that names who takes a table with these columns; "" if `taker` does, or for unknown ones."""
+    found = {TAKEN_BY[name]: name for name in names if name in TAKEN_BY}
+    if not found or taker in found:
+        return ""
+    other, name = next(iter(found.items()))
+    return f"; a table with {name} is one for {other}"

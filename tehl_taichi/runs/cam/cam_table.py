@@ -7,7 +7,6 @@ from typing import ClassVar
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.flank import table_text
-from tehl_taichi.values.checks import nearest
 from tehl_taichi.values.quantity import Number
 
 RADIUS, SPEED = Number("", "mm", 0.1, 1e6, infinite=True, usual=20.0), Number("", "m/s", -1e3, 1e3, usual=5.0)
@@ -93,10 +92,7 @@ def _columns(path, names):
         raise SceneError(f"table {path} has the columns R_mm and {own[0]}; allowed: the reduced radius R_mm, or R_a_mm and "
                          "R_b_mm")
     radii = REDUCED if "R_mm" in names else BOTH
-    if missing := [name for name in (*ALWAYS, *radii) if name not in names]:
-        others = [name for name in names if name not in KNOWN]
-        named = ", ".join(f"{name}{nearest(name, others)}" for name in missing)
-        raise SceneError(f"table {path} has no column {named}; needed: {', '.join(ALWAYS)}, and R_mm or R_a_mm and R_b_mm")
+    table_text.check_names(path, names, (*ALWAYS, *radii), f"{', '.join(ALWAYS)}, and R_mm or R_a_mm and R_b_mm", "`tehl cam`")
     return {**ALWAYS, **radii}
 
 

@@ -5,7 +5,6 @@ from pathlib import Path
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.flank import table_text
 from tehl_taichi.runs.flank.positions import Position
-from tehl_taichi.values.checks import nearest
 from tehl_taichi.values.quantity import Number
 from tehl_taichi.values.unit_hints import hint
 
@@ -50,10 +49,7 @@ def _check_names(path, names):
     if BULK not in names and (like := [name for name in names if name.lower().startswith("bulk")]):
         raise SceneError(f"table {path} has the column {like[0]!r}, which is no temperature with its unit; allowed: {BULK}, or "
                          "another unit as in bulk_K")
-    missing = [name for name in NEEDED if name not in names]
-    if missing:
-        named = ", ".join(f"{name}{nearest(name, [n for n in names if n not in NEEDED])}" for name in missing)
-        raise SceneError(f"table {path} has no column {named}; needed: {', '.join(NEEDED)}")
+    table_text.check_names(path, names, NEEDED, ", ".join(NEEDED), "`tehl flank`")
 
 
 def _position(path, n, row):

@@ -6,7 +6,7 @@ from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values import units
 from tehl_taichi.values.checks import near_file
-from tehl_taichi.values.text_table import rows_of, without_empty_end, wrong_length
+from tehl_taichi.values.text_table import meant_column, rows_of, taken_elsewhere, without_empty_end, wrong_length
 
 WITH_UNIT = re.compile(r"(\w+)\s*[/\[(]\s*(.+?)[\])]?\s*")  # load/N, load (N), load [N]
 SPEEDS = "u_a", "u_b"  # whose names have m_s in place of m_per_s
@@ -32,6 +32,17 @@ def rows(path):
         raise SceneError(f"table {path} has the column {twice[0]} twice; remove one of them")
     _check_lengths(path, len(names), lines)
     return names, [{name: _value(name, unit, text) for (name, unit), text in zip(columns, line)} for line in lines]
+
+
+def check_names(path, names, needed, words, taker):
+    """Refuse a table without one of the needed columns. Raises SceneError.
+
+    words: text of the needed columns; taker: see :func:`tehl_taichi.values.text_table.taken_elsewhere`.
+    """
+    if missing := [name for name in needed if name not in names]:
+        others = [name for name in names if name not in COLUMNS]
+        named = ", ".join(f"{name}{meant_column(COLUMNS[name][0], others)}" for name in missing)
+        raise SceneError(f"table {path} has no column {named}; needed: {words}{taken_elsewhere(names, taker)}")
 
 
 def _check_lengths(path, count, lines):

@@ -10,7 +10,7 @@ from tehl_taichi.scene.strength.table import DEPTH, HARDNESS, KAPPA, LIMIT, RESI
 from tehl_taichi.values.checks import near_file, nearest
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.quantity import Number
-from tehl_taichi.values.text_table import rows_of, without_empty_end, wrong_length
+from tehl_taichi.values.text_table import rows_of, taken_elsewhere, without_empty_end, wrong_length
 
 MOST, LARGEST = 500, 1e6  # rows, bytes
 STRESS = {"Pa": 1.0, "MPa": 1e6}
@@ -88,7 +88,9 @@ def _columns(where, rows):
 def _check_names(where, names):
     for name in names:
         if name not in NAMES:
-            raise SceneError(f"{where} has a column {shown(name)}{nearest(name, NAMES)}; known: {', '.join(NAMES)}")
+            meant = nearest(name, NAMES) if NAMES.keys() & set(names) else ""  # no name is known: a table for other things
+            raise SceneError(f"{where} has a column {shown(name)}{meant}; known: {', '.join(NAMES)}"
+                             f"{taken_elsewhere(names, '`tehl run --table`')}")
     known = [NAMES[name][0] for name in names]
     if twice := sorted({what for what in known if known.count(what) > 1}):
         raise SceneError(f"{where} has two columns of {twice[0]}; remove one of them")

@@ -5,6 +5,7 @@ import pytest
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.cam import cam_table
 from tehl_taichi.runs.flank import load_table
+from tehl_taichi.scene.strength import table_file
 
 CAM = "angle_deg, load_N_per_mm, R_mm, u_a_m_s, u_b_m_s\n-20, 116.4, 16.6, 2.0, 0.6\n0, 120, inf, 2.2, 0.7\n"
 
@@ -82,3 +83,28 @@ def test_a_bulk_temperature_in_no_known_unit_is_not_ignored(tmp_path, head):
     path.write_text(f"x_pl_mm;R_a_mm;R_b_mm;load_N_per_mm;u_a_m_s;u_b_m_s;{head}\n-3,7;10,3;24,6;560;2,3;3,7;200\n")
     with pytest.raises(SceneError, match="which is no temperature with its unit; allowed: bulk_C, or"):
         load_table.load(path)
+
+
+TABLES = {"`tehl flank`": "x_pl_mm,load_N_per_mm,R_a_mm,R_b_mm,u_a_m_s,u_b_m_s\n1,300,10,20,3,2\n",
+          "`tehl cam`": "angle_deg,load_N_per_mm,R_mm,u_a_m_s,u_b_m_s\n0,100,20,1,3\n",
+          "`tehl run --table`": "depth_mm,hardness_HV\n0,700\n1,500\n"}
+LOADS = {"`tehl flank`": load_table.load, "`tehl cam`": cam_table.load,
+         "`tehl run --table`": lambda path: table_file.text_of(str(path), "fatigue.table")}
+
+
+@pytest.mark.parametrize("taker, given", [(one, other) for one in LOADS for other in TABLES if one != other])
+def test_a_table_for_another_command_is_sent_there_without_a_suggestion(tmp_path, taker, given):
+    (tmp_path / "t.csv").write_text(TABLES[taker])
+    LOADS[taker](tmp_path / "t.csv")
+    (tmp_path / "t.csv").write_text(TABLES[given])
+    with pytest.raises(SceneError) as said:
+        LOADS[taker](tmp_path / "t.csv")
+    assert str(said.value).endswith(f"is one for {given}") and "did you mean" not in str(said.value)
+
+
+def test_a_suggested_column_begins_like_the_missing_one(tmp_path):
+    for written, meant in (("xpl_mm", True), ("X_PL (mm)", True), ("b_mm", False), ("y_mm", False)):
+        (tmp_path / "t.csv").write_text(TABLES["`tehl flank`"].replace("x_pl_mm", written))
+        with pytest.raises(SceneError) as said:
+            load_table.load(tmp_path / "t.csv")
+        assert (f"x_pl_mm (did you mean {written!r}?)" in str(said.value)) == meant
