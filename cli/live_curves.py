@@ -62,7 +62,7 @@ class Curves:
         """Axis of x with the feature on it, and its ends in mm."""
         axis, at = ["─"] * width, (self.feature - self.x[0]) / np.ptp(self.x)
         if 0 <= at <= 1:
-            axis[int(at * (width - 1))] = "▲"
+            axis[min(int(at * width), width - 1)] = "▲"  # the letter in which the curves are drawn there
         left, right = (f"{end * 1e3:+.2f}" for end in self.x[[0, -1]])
         return "".join(axis) + f"\n{left}{'x, mm':^{width - len(left) - len(right)}}{right}"
 

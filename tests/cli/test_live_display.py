@@ -72,14 +72,17 @@ def test_curves_name_their_axes_and_the_place_of_the_feature():
     assert ends.startswith("-0.75") and ends.endswith("+0.75")  # the contact and 0.3 of its width on both sides
 
 
-@pytest.mark.parametrize("x", [-0.5e-3, 0.3e-3])
-def test_the_feature_is_marked_at_its_place_on_the_axis(x):
-    curves, one = Curves(), snapshot()
-    one.feature_x = x
+@pytest.mark.parametrize("place", [0.0, 0.1, 0.37, 0.63, 0.9, 0.99, 1.0])
+def test_the_feature_is_marked_in_the_letter_nearest_to_it(place):
+    """Letters have equal widths; the curve above has its spike in the same letter."""
+    curves, one, width = Curves(), snapshot(), 41
     curves.take(one)
-    axis, ends = curves._foot(41).splitlines()
-    left, right = (float(end) * 1e-3 for end in (ends.split()[0], ends.split()[-1]))
-    assert left + (right - left) * axis.index("▲") / 40 == pytest.approx(x, abs=0.038e-3), "a letter"
+    curves.feature = curves.x[0] + place * np.ptp(curves.x)
+    mark = curves._foot(width).index("▲")
+    assert abs(mark + 0.5 - place * width) <= 0.5 + 1e-9
+    spike = np.eye(1, 1001, round(place * 1000))[0]
+    (line,) = braille(spike, width, 1, 0.0, 1.0)
+    assert ord(line[mark]) & 0b1001, "a dot of the upper row"
 
 
 def test_whole_domains_are_drawn_through_their_largest_pressure():
