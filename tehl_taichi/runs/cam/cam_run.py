@@ -14,7 +14,7 @@ from tehl_taichi.runs.flank.outcomes import computed
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.scene import Scene, grid_for_features, idle_keys
 from tehl_taichi.scene import scene as built_in
-from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.feature import USED_BY, Feature
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.store.json_values import plain
 from tehl_taichi.store.load_scene import find
@@ -58,9 +58,14 @@ def _as_it_moves(base, at):
     """The base scene, with mirrored features for a position whose contact moves backwards."""
     if at.u_a + at.u_b >= 0:
         return base
-    features = [dataclasses.replace(f, x=-f.x, **({"mirror_x": not f.mirror_x, "offset_x": -f.offset_x} if f.kind.measured
-                                                  else {})) for f in base.features]
-    return dataclasses.replace(base, features=tuple(features)).with_user_keys(idle_keys.user_keys(base), base.replaced)
+    features = tuple(_mirrored(f) for f in base.features)
+    return dataclasses.replace(base, features=features).with_user_keys(idle_keys.user_keys(base), base.replaced)
+
+
+def _mirrored(f):
+    """Mirror image of a feature along x; shapes without `mirror_x` are even."""
+    turned = {"mirror_x": not f.mirror_x} if f.shape in USED_BY["mirror_x"] else {}
+    return dataclasses.replace(f, x=0.0 - f.x, offset_x=0.0 - f.offset_x, **turned)
 
 
 def _with_own_grid(*position):

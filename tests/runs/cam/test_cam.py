@@ -15,6 +15,7 @@ from tehl_taichi.report import cam_page
 from tehl_taichi.runs.cam import cam_columns, cam_figure, cam_table
 from tehl_taichi.runs.open_results import kind
 from tehl_taichi.runs.sweep import case
+from tehl_taichi.scene.feature import SHAPES
 from tehl_taichi.view.figures.figure_style import FigureStyle
 
 HEAD = "angle_deg, load_N_per_mm, R_a_mm, R_b_mm, u_a_m_s, u_b_m_s, note\n"
@@ -192,6 +193,20 @@ def test_a_contact_that_moves_backwards_has_the_mirror_image_of_its_feature(keys
     np.testing.assert_allclose(heights[0], heights[1], atol=1e-12)
     ahead_of_it, behind_it = (tooth.height_at(side * x, y) for side in (1, -1))
     assert np.abs(ahead_of_it - behind_it).max() > 5e-7 and not [one for one in back.warnings() if "mirror" in one]
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_every_shape_has_a_mirror_image(shape):
+    from tehl_taichi.runs.cam.cam_run import _mirrored
+
+    slope = np.linspace(0.0, 1.0, 40)
+    heights = tehl.Feature.from_heights(slope if shape == "profile" else np.tile(slope, (40, 1)), 5e-6, unit="um", level="none")
+    f = heights if SHAPES[shape].measured else tehl.Feature(**SHAPES[shape].example)
+    f = dataclasses.replace(f, x=2e-5)
+    x, y = np.linspace(-2e-4, 2e-4, 81)[None, :], np.linspace(-5e-5, 5e-5, 9)[:, None]
+    there, image, back = f.height_at(x - f.x, y), _mirrored(f).height_at(-x + f.x, y), _mirrored(_mirrored(f))
+    np.testing.assert_allclose(image, there, atol=1e-9 * np.abs(there).max())
+    assert _mirrored(f).x == -f.x and back == f and np.abs(there).max() > 0
 
 
 def test_a_follower_at_rest_has_a_film():

@@ -35,7 +35,7 @@ class Measured:
                               FARTHEST, usual=1e-6)
     transpose: bool = switch(False, "map: the rows of the file run along y (across); pixel and pixel_y remain those of the "
                                     "file")
-    mirror_x: bool = switch(False, "map, profile: reverse the heights along x (after transpose)")
+    mirror_x: bool = switch(False, "map, profile, rough, ground: reverse the heights along x (of a map after transpose)")
     mirror_y: bool = switch(False, "map, profile: reverse the heights along y (after transpose)")
     level: str = choice("plane", "map, profile: shape removed from the heights; form: plane and curvature", tuple(LEVELS))
     offset_x: float = quantity(0.0, "m", "map, profile: centre of the part used, from the centre of all heights; extent_x, "

@@ -57,7 +57,7 @@ GROUND = Ground(
     source="equal power per octave, as on ground surfaces; not from a measurement",
     uses={"height": "Ra", "width": "shortest wavelength along x; others up to four times it",
           "length": "shortest wavelength along y (0: equal to width, inf: no variation)", "seed": "",
-          "shortest_x": "", "shortest_y": "", "extent_x": "", "extent_y": "", "taper": ""},
+          "shortest_x": "", "shortest_y": "", "extent_x": "", "extent_y": "", "taper": "", "mirror_x": ""},
     example={"shape": "ground", "height": 0.1e-6, "width": 80e-6, "length": 320e-6, "extent_x": 300e-6, "extent_y": 300e-6,
              "taper": 50e-6},
     checked=(Checked("Ra = height: Gaussian heights with the powers of their cosines", 0.3e-6,

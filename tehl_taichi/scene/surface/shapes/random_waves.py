@@ -36,7 +36,7 @@ class RandomWaves(Patch):
         raise NotImplementedError(f"{self.name} has no waves")
 
     def height(self, f, x, y):
-        return self.waves(f, x, y) * self.window(f, x, y)
+        return self.waves(f, -x if f.mirror_x else x, y) * self.window(f, x, y)
 
     def kept(self, f):
         """Indices (along x, along y) of the waves that are kept."""

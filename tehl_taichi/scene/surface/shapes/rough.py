@@ -38,6 +38,6 @@ ROUGH = Rough(
     name="rough", says="random roughness, even in y, in a patch with a faded rim",
     source="equal power per octave, as on ground surfaces; not from a measurement", keys=Random,
     uses={"height": "rms", "width": "shortest wavelength; others up to the patch "
-                                    "size", "extent_x": "", "extent_y": "", "taper": ""},
+                                    "size", "extent_x": "", "extent_y": "", "taper": "", "mirror_x": ""},
     example={"shape": "rough", "height": 0.1e-6, "width": 80e-6, "extent_x": 300e-6, "extent_y": 300e-6, "taper": 50e-6},
     checked=(Checked("rms = height: the square of sums of cosines has their powers for its mean", 0.2e-6, rms_of_many, 0.02),))
