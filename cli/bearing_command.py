@@ -65,9 +65,12 @@ def roller(
 
 def _compute(which, context, own, scene, figure, as_json, quiet, curves, format, dpi, figure_width, **shared):
     """Run the bearing, draw and print it."""
+    from tehl_taichi.runs.bearing.ring_contacts import RINGS
+    from tehl_taichi.values.checks import choice
     from tehl_taichi.view.figures import folder_figure
     from tehl_taichi.view.figures.figure_style import FigureStyle
 
+    choice("--on", shared["on"], RINGS)
     feature = feature_of(*map(shared.pop, SCANNED))
     page = FigureStyle(format, dpi, figure_width, force=True)
     folder_figure.check(shared["out"], page, "bearing") if figure else say_no_figure(context, "--no-figure draws none")

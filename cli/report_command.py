@@ -39,9 +39,9 @@ def report(
     import tehl_taichi as tehl
     from tehl_taichi.engine import runtime
 
+    runtime.check(threads=threads)
     if all(value is None for value in constants.values()):
         say_idle(context, "only a search with other constants computes", "threads")
-    runtime.check(threads=threads)
     with Live() as live:
         path = tehl.report(store, out, force=force, progress=live, threads=threads, pages=pages, **constants)
     put(path)

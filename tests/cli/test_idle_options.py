@@ -47,6 +47,13 @@ def test_what_acts_only_with_another_option_is_said(words, said, tmp_path, monke
     assert [line.partition(" has no effect here: ")[0].removeprefix("warning: ") for line in found] == said
 
 
+@pytest.mark.parametrize("words", [("bearing", "6206", "--on", "middle", "--no-run"), ("report", "none", "--threads", 0)])
+def test_a_refused_value_has_one_message(words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, said = cli(*words)
+    assert code == 2 and "; allowed: " in said and "no effect" not in said
+
+
 FIGURES = [("fatigue", "fatigue.png"), ("fatigue", "fatigue_point.png"), ("crack", "crack.png")]
 
 
