@@ -12,6 +12,8 @@ from tehl_cli.scene_options import changes_of
 from tehl_cli.shared_options import sharing
 from tehl_cli.stdout import print_json, put
 
+from tehl_taichi.values.digits import part_of
+
 
 def register(app):
     """Add the commands to the app."""
@@ -86,7 +88,8 @@ def _compute(which, context, own, scene, figure, as_json, quiet, curves, format,
     if found.failed:
         from tehl_taichi.errors import NotConverged
 
-        raise NotConverged(f"{len(found.failed)} of 2 contacts have no result; the other is in {found.folder}. Try another "
+        failed = part_of(len(found.failed), 2, "contact", "has", "have")
+        raise NotConverged(f"{failed} no result; the other is in {found.folder}. Try another "
                            "--grid or --set with a new --out")
 
 

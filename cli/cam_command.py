@@ -12,6 +12,8 @@ from tehl_cli.live_display import Live, say
 from tehl_cli.scene_options import changes_of
 from tehl_cli.stdout import print_json, put
 
+from tehl_taichi.values.digits import part_of
+
 
 def register(app):
     """Add the command to the app."""
@@ -67,8 +69,9 @@ def cam(
     if found.not_converged:
         from tehl_taichi.errors import NotConverged
 
-        raise NotConverged(f"{len(found.not_converged)} of {len(found.rows)} angles have no result; the others are in "
-                           f"{found.folder}. Try another --grid or --set with a new --out")
+        failed = part_of(len(found.not_converged), len(found.rows), "angle", "has", "have")
+        raise NotConverged(f"{failed} no result; the others are "
+                           f"in {found.folder}. Try another --grid or --set with a new --out")
 
 
 def print_cam(found):

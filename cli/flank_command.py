@@ -11,6 +11,8 @@ from tehl_cli.live_display import Live, say
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 
+from tehl_taichi.values.digits import part_of
+
 
 def register(app):
     """Add the command to the app."""
@@ -76,8 +78,9 @@ def flank(
     if found.failed:
         from tehl_taichi.errors import NotConverged
 
-        raise NotConverged(f"{len(found.failed)} of {len(found.positions)} positions have no result; the others are in "
-                           f"{found.folder}. Try another --grid or --set with a new --out")
+        failed = part_of(len(found.failed), len(found.positions), "position", "has", "have")
+        raise NotConverged(f"{failed} no result; the others "
+                           f"are in {found.folder}. Try another --grid or --set with a new --out")
 
 
 def _line(gear, base, changes, steady):

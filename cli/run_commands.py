@@ -11,6 +11,7 @@ from tehl_cli.scene_options import GRIDS, changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 from tehl_cli.timing import print_budget, time_budget
 
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
 
 
@@ -130,7 +131,8 @@ def resume(
 
     before = open_run(store)
     if before.rest(steps) is None:
-        say(f"{store} is finished ({len(before.store)} entries); `tehl show {typed(store)}` prints its summary")
+        entries = number_of(len(before.store), "entry", "entries")
+        say(f"{store} is finished ({entries}); `tehl show {typed(store)}` prints its summary")
         if as_json:
             print_json(before.summary)
         return
@@ -182,7 +184,7 @@ def _print_scene(scene):
     put(f"h_c by formula: {central_film(scene) * 1e6:.4f} um ({formula_words(scene)})")
     a, b = (f"E = {body.E / 1e9:g} GPa, nu = {body.nu:g}" for body in (scene.body_a, scene.body_b))
     put(f"bodies: {f'both {a}' if a == b else f'a {a}; b {b}'}; oil {scene.oil.name} at {scene.operation.temperature:g} deg C")
-    put(f"{scene.grid.nx} x {scene.rows} cells, {total_steps(scene)} steps")
+    put(f"{scene.grid.nx} x {scene.rows} cells, {number_of(total_steps(scene), 'step')}")
     for line in (*preview(scene), *(f"left out: {one}" for one in scene.left_out()), *(f"warning: {one}" for one in
                                                                                      scene.warnings())):
         put(line)

@@ -9,6 +9,7 @@ from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
 
 
@@ -172,7 +173,7 @@ def _show_run(saved, as_json):
     if as_json:
         return print_json(saved.summary or unfinished_summary(saved))
     store = saved.path
-    put(f"{store}: scene {saved.scene.name}, {saved.steps} entries, {_state(saved)}")
+    put(f"{store}: scene {saved.scene.name}, {number_of(saved.steps, 'entry', 'entries')}, {_state(saved)}")
     if saved.scene.note:
         put(f"note: {saved.scene.note}", "\n")
     if other := saved.other_version:

@@ -8,6 +8,8 @@ from tehl_cli.live_display import say
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 
+from tehl_taichi.values.digits import number_of
+
 MANY = 1000  # more cases than this need --yes
 
 
@@ -122,7 +124,7 @@ def _report(plan, out):
 
     refused = plan.refused()
     shape = f" ({' x '.join(map(str, plan.shape))})" if len(plan.shape) > 1 else ""
-    put(f"{plan.count} cases{shape} of {plan.scene.name} into {out}")
+    put(f"{number_of(plan.count, 'case')}{shape} of {plan.scene.name} into {out}")
     put(f"{plan.scene.name}: {Scales.of(plan.scene).words}")
     for key in plan.keys:
         values = [str(value) for value in plan.coordinate(key)[1]]

@@ -11,6 +11,7 @@ from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
 from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
+from tehl_taichi.values.digits import number_of, part_of
 from tehl_taichi.values.escape import typed
 
 SHOWN = ((JUDGED, "Fi judged", 1), ("transient_h_min_m", "h_min um", 1e6), ("transient_p_max_Pa", "p_max GPa", 1e-9),
@@ -55,7 +56,7 @@ class SweepLive:
         study, todo = self.study, len(self.study.open_cases)
         if not self.quiet:
             done = f", {len(study) - todo} of them already done" if len(study) > todo else ""
-            say(f"{len(study)} cases into {study.path}{done}")
+            say(f"{number_of(len(study), 'case')} into {study.path}{done}")
         for record in study.results():
             if record["status"] == "refused":
                 say(f"case {record['case']} was refused: {record['reason']}")
@@ -68,7 +69,7 @@ class SweepLive:
 
     def _headline(self):
         left, study = len(self.study.open_cases), self.study
-        text = f"{len(study) - left}/{len(study)} cases"
+        text = f"{len(study) - left}/{number_of(len(study), 'case')}"
         bad = sum(count for word, count in study.counts.items() if word not in ("converged", "waiting"))
         text += f", {bad} without a result" if bad else ""
         if self.ended > 2 and left:  # the start of the workers does not count in the pace
@@ -95,8 +96,8 @@ class SweepLive:
         """End of a sentence about a stopped sweep: completed cases, and how to resume (default: as a sweep)."""
         if self.study is None:
             return "before any result was stored"
-        done = len(self.study) - len(self.study.open_cases)
-        return f"after {done} of {len(self.study)} cases; {resume or f'resume with: tehl sweep {typed(self.study.path)}'}"
+        done, path = len(self.study) - len(self.study.open_cases), typed(self.study.path)
+        return f"after {part_of(done, len(self.study), 'case')}; {resume or f'resume with: tehl sweep {path}'}"
 
 
 def changes_words(record):

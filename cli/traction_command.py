@@ -10,6 +10,8 @@ from tehl_cli.live_display import say
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 
+from tehl_taichi.values.digits import part_of
+
 LIST = "values a,b,c or low:high:N or low:high:N:log, units allowed: 0:50%:11"
 
 
@@ -72,8 +74,8 @@ def traction(
         say(str(found.plot(**vars(page))))
     print_json(found.to_dict()) if as_json else _print(found)
     if found.failed:
-        raise NotConverged(f"{len(found.failed)} of {len(found.study)} cases have no result; the others are in "
-                           f"{found.study.path}. Try another --grid or --set with a new --out")
+        raise NotConverged(f"{part_of(len(found.failed), len(found.study), 'case', 'has', 'have')} no result; the others are "
+                           f"in {found.study.path}. Try another --grid or --set with a new --out")
 
 
 def _print(found):

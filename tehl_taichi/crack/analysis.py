@@ -11,6 +11,7 @@ from tehl_taichi.crack.symmetry_plane import SymmetryPlane, first_feature_path, 
 from tehl_taichi.crack.trajectory import CrackStart, start, trajectory
 from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.assessment import PIT_ANGLES, Snapshots
+from tehl_taichi.values.digits import number_of
 
 DEPTHS = (10e-6, 20e-6, 40e-6)  # m, at which the chord from the mouth is measured
 FAR = 2.0                       # lengths of the crack that its trajectory is followed
@@ -29,7 +30,8 @@ class CrackSide:
     path: CrackPath
 
     def __repr__(self):
-        return f"<Side from x = {self.start.x * 1e6:.1f} um: {self.path.points.size} points, stopped by {self.path.why}>"
+        points = number_of(self.path.points.size, "point")
+        return f"<Side from x = {self.start.x * 1e6:.1f} um: {points}, stopped by {self.path.why}>"
 
 
 @dataclass(frozen=True)
@@ -184,6 +186,6 @@ def _doubts(path, options, missed, error, largest):
     if error > CLEAR * largest:
         yield f"twice as many elements change the stress intensities by {error / largest:.0%}"
     if missed > CLEAR * len(path.steps) * path.last.K.shape[1]:
-        yield f"{missed} moments did not converge between sticking and sliding"
+        yield f"{number_of(missed, 'moment')} did not converge between sticking and sliding"
     if path.points.size > 2 and path.points[2:].imag.min() < 2 * options.distance:
         yield "the crack is closer to the surface than twice `--distance`, at which its direction is found"

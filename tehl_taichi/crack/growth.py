@@ -12,6 +12,7 @@ import numpy as np
 from tehl_taichi.crack.compliance import CrackFaces
 from tehl_taichi.crack.fillings import FILLINGS
 from tehl_taichi.crack.fluid_filled import FluidFilledCrack
+from tehl_taichi.values.digits import number_of
 
 WIDEST, FAN = np.radians(75.0), 51  # directions looked at: up to there on both sides
 WHY = {"length": "it has reached the given length", "threshold": "K_I stays below the threshold",
@@ -34,7 +35,7 @@ class LoadedCrack:
     mouth: np.ndarray
 
     def __repr__(self):
-        return f"<Loaded crack: {self.K.shape[1]} moments, K_I to {self.K[0].max():.3g} Pa sqrt(m)>"
+        return f"<Loaded crack: {number_of(self.K.shape[1], 'moment')}, K_I to {self.K[0].max():.3g} Pa sqrt(m)>"
 
 
 @dataclass
@@ -50,7 +51,7 @@ class CrackPath:
     last: LoadedCrack | None = None
 
     def __repr__(self):
-        return f"<Path of {self.points.size} points, stopped by {self.why}>"
+        return f"<Path of {number_of(self.points.size, 'point')}, stopped by {self.why}>"
 
 
 def load_crack(plane, points, options, E_star, elements=None):

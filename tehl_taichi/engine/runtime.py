@@ -254,7 +254,8 @@ def _same_start(arch, threads):
     _check_home()
     requested = dict(arch=arch, threads=threads)
     if any(_started[key] != value for key, value in requested.items()):
-        raise RuntimeUnavailable(f"this process already runs with {_started['arch']}, {_started['threads']} threads; "
+        count = _started["threads"]
+        raise RuntimeUnavailable(f"this process already runs with {_started['arch']}, {count} thread{'s' * (count != 1)}; "
                                  "start a new process for other settings")
     return dict(_started)
 

@@ -7,6 +7,7 @@ import numpy as np
 from tehl_taichi.fatigue import findley
 from tehl_taichi.scene import SceneError
 from tehl_taichi.values.arrays import floats
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.quantity import Number
 
 LARGEST = Number("", "Pa", -1e12, 1e12, usual=4e8, least=1e5)
@@ -31,7 +32,7 @@ class Points:
     limit: float
 
     def __repr__(self):
-        return f"<tehl.Points: {self.f.size} points, Fi_max {self.Fi.max():.3g} at point {self.worst}>"
+        return f"<tehl.Points: {number_of(self.f.size, 'point')}, Fi_max {self.Fi.max():.3g} at point {self.worst}>"
 
     @property
     def Fi(self):

@@ -7,6 +7,7 @@ from tehl_taichi.heat.energy import HOT
 from tehl_taichi.pressure import fields
 from tehl_taichi.scene import domain, refinement, thick_film, thin_film
 from tehl_taichi.scene.film_formula import heated_film
+from tehl_taichi.values.digits import number_of
 
 AT_FLOOR = 1e-3  # relative, that a film on its floor may lie above
 HIGH = 5.0  # central films, more than a usual asperity (1.5 um over 0.4): features that rise so far are named
@@ -63,8 +64,8 @@ def _heated(heat):
     """Reason in the temperatures, "" if there is none."""
     if not heat or heat.sound:
         return ""
-    found = [f"limited to their range (up to {HOT:g} deg C) at {heat.held} node{'s' * (heat.held > 1)}"] * bool(heat.held)
-    found += [f"without a solution in {heat.report.failed} column{'s' * (heat.report.failed > 1)}"] * bool(heat.report.failed)
+    found = [f"limited to their range (up to {HOT:g} deg C) at {number_of(heat.held, 'node')}"] * bool(heat.held)
+    found += [f"without a solution in {number_of(heat.report.failed, 'column')}"] * bool(heat.report.failed)
     return f", temperatures {' and '.join(found)}" if found else ""
 
 
@@ -74,7 +75,7 @@ def _on_its_floor(solver, passing):
     floor, nodes = v.G[0, fields.FLOOR], int((v.get(fields.H) < (1 + AT_FLOOR) * v.G[0, fields.FLOOR]).sum())
     if not nodes:
         return ""
-    return (f"the film is on its floor ({floor * v.scales.h:.1e} m, rheology.film_floor) at {nodes} node{'s' * (nodes > 1)}: "
+    return (f"the film is on its floor ({floor * v.scales.h:.1e} m, rheology.film_floor) at {number_of(nodes, 'node')}: "
             f"{passing and _too_high(v.scene) or f'too thin for this grid, {_finer(v.scene)}'}")
 
 

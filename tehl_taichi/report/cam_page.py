@@ -11,6 +11,7 @@ from tehl_taichi.runs.cam import cam_columns, cam_figure
 from tehl_taichi.runs.cam.stored_cam import Cam
 from tehl_taichi.runs.flank.flank_figure import JUDGED
 from tehl_taichi.values.coded_text import without_options
+from tehl_taichi.values.digits import part_of
 
 
 def of(folder, out=None):
@@ -50,7 +51,8 @@ def limits(cam):
 
 def answer(cam):
     """The :class:`tehl_taichi.report.document.Answer` of a cam: the thinnest film, or the largest index if features pass."""
-    left = f"{len(cam.failed)} of {len(cam.rows)} angles have no result and are not part of this answer."
+    failed = part_of(len(cam.failed), len(cam.rows), "angle", "has no result and is", "have no result and are")
+    left = f"{failed} not part of this answer."
     doubts = (*limits(cam), f"Assumed: {cam.record['assumption']}.", *[left] * bool(cam.failed))
     thin = _thinnest(cam)
     if places := _places(cam):

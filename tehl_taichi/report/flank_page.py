@@ -12,7 +12,7 @@ from tehl_taichi.runs.flank.flank_figure import JUDGED, PANELS
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.values.coded_text import without_options
-from tehl_taichi.values.digits import printed_unit
+from tehl_taichi.values.digits import number_of, part_of, printed_unit
 from tehl_taichi.values.quantity import kinds
 from tehl_taichi.view.figures.palette import GREY
 
@@ -31,7 +31,7 @@ def of(folder, out=None):
     links. Raises StoreError."""
     flank = Flank.open(folder)
     store, words = _critical(flank)
-    return Page(f"{flank.name}: report", f"{flank.title}, {len(flank.rows)} positions", answer(flank), (
+    return Page(f"{flank.name}: report", f"{flank.title}, {number_of(len(flank.rows), 'position')}", answer(flank), (
         Section("Along the flank", (figure_block(*figures(flank)),)),
         Section("Positions", (*(table([unit_spelled(head) for head in heads], lines, title)
                                 for title, (heads, lines) in tables(flank.rows).items()),
@@ -75,7 +75,8 @@ def limits(flank):
 
 def answer(flank):
     """The :class:`tehl_taichi.report.document.Answer` of a flank."""
-    left = f"{len(flank.failed)} of {len(flank.rows)} positions did not converge and are not part of this answer."
+    failed = part_of(len(flank.failed), len(flank.rows), "position", "did not converge and is", "did not converge and are")
+    left = f"{failed} not part of this answer."
     count = f"Number of warnings, listed below: {len(warnings(flank))}."
     none = [f"No verdict at {_where(at)}: {why_none(part)}." for at, _, summary in flank.rows
             if (part := value_at(summary, "fatigue")) and why_none(part)]

@@ -9,7 +9,7 @@ from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.number_text import FEW, index, value_text
 from tehl_taichi.report.verdict import LATER, headline, state_and_index, with_load
 from tehl_taichi.runs.flank.flank_columns import error_of as error_in
-from tehl_taichi.values.digits import micrometres
+from tehl_taichi.values.digits import micrometres, part_of
 
 UNKNOWN_LATER = "Probably not: the index stays below 1, but over the whole passage its error is unknown."
 
@@ -124,7 +124,7 @@ def _sentences(places, top, group, count):
     above, within = (sum(place.state == state for place in places) for state in (ABOVE, WITHIN))
     doubtful = f"; 1 lies within the error at {within} more" if within else ""
     decides = f"The {what} that decides is Fi = {index(top.Fi, top.error)}, {top.where}{apart}."
-    return (*_alone(places), decides, *_whole(places), f"It is above 1 at {above} of {count} positions{doubtful}.")
+    return (*_alone(places), decides, *_whole(places), f"It is above 1 at {part_of(above, count, 'position')}{doubtful}.")
 
 
 def _whole(places):

@@ -15,7 +15,7 @@ from tehl_taichi.runs.sweep.study_labels import key_name, label_with_value, name
 from tehl_taichi.runs.sweep.study_table import Study, attributes
 from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
 from tehl_taichi.scene.aliases import full_name
-from tehl_taichi.values.digits import with_error
+from tehl_taichi.values.digits import number_of, part_of, with_error
 
 MOST_ROWS = 500
 ROUNDING = 1e-12  # of the largest value: friction in pure rolling
@@ -25,7 +25,8 @@ def of(folder):
     """The :class:`tehl_taichi.report.document.Page` of the study in `folder`. Raises StoreError."""
     study = Study.open(folder)
     scene, keys = study.plan.scene, ", ".join(map(key_name, study.plan.keys))
-    return Page(f"{scene.name}: report of a study", f"{scene.name}: {len(study)} cases over {keys}", _answer(study), (
+    cases = number_of(len(study), "case")
+    return Page(f"{scene.name}: report of a study", f"{scene.name}: {cases} over {keys}", _answer(study), (
         Section("Results", (figure_block(*figures(study)),)), Section("Cases", (_table(study), _rest(study))),
         Section("Without a result", (sentences(_failed(study)),)), _scene(study),
         Section("Provenance", (facts(_provenance(study)),))))
@@ -56,15 +57,15 @@ def _column(study, name):
 def _answer(study):
     Fi, waiting = _column(study, JUDGED), study.counts["waiting"]
     known, bad = np.isfinite(Fi), len(study) - waiting - study.counts["converged"]
-    doubts = [f"Without a result: {bad} of {len(study)} cases; the list below says why."] * bool(bad)
-    doubts += [f"Not run yet: {waiting} of {len(study)} cases."] * bool(waiting)
+    doubts = [f"Without a result: {part_of(bad, len(study), 'case')}; the list below says why."] * bool(bad)
+    doubts += [f"Not run yet: {part_of(waiting, len(study), 'case')}."] * bool(waiting)
     if not known.any():
-        headline = f"{study.counts['converged']} of {len(study)} cases have a result."
+        headline = f"{part_of(study.counts['converged'], len(study), 'case', 'has', 'have')} a result."
         return Answer("What are the results of the study?", headline, "none", tuple(_ranges(study)), tuple(doubts))
     states, of_all = [judged(*one) for one in zip(Fi[known], _errors(study)[known])], int(known.sum())
     above, within = states.count(ABOVE), states.count(WITHIN)
     doubtful = f"; 1 lies within the error in {within} more" * bool(within)
-    headline = f"The index that decides is above 1 in {above} of {of_all} cases with a result{doubtful}."
+    headline = f"The index that decides is above 1 in {part_of(above, of_all, 'case')} with a result{doubtful}."
     tone = "yes" if above == of_all else "open" if above + within else "no"
     return Answer("In which cases does a fatigue crack start?", headline, tone,
                   (_extreme(study, Fi, "largest", np.nanargmax), _extreme(study, Fi, "smallest", np.nanargmin)),
@@ -110,7 +111,7 @@ def _errors(study):
 def _unknown(study):
     """Sentence: number of cases whose index has no error."""
     unknown = int((np.isfinite(_column(study, JUDGED)) & ~np.isfinite(_column(study, error_of(JUDGED)))).sum())
-    return [f"The error of the index is not known: {unknown} of {len(study)} cases."] * bool(unknown)
+    return [f"The error of the index is not known: {part_of(unknown, len(study), 'case')}."] * bool(unknown)
 
 
 def _changes(study, n):

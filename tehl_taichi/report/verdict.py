@@ -26,7 +26,7 @@ from tehl_taichi.runs.summary.result_warnings import place_text, steel_bodies
 from tehl_taichi.scene import feature_wording, yield_stress
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import total_steps
-from tehl_taichi.values.digits import micrometres, with_error
+from tehl_taichi.values.digits import micrometres, number_of, part_of, with_error
 from tehl_taichi.values.escape import typed
 
 LATER = {state: f"Not decided: the index stays below 1 while the grid resolves the pressure, and {word} 1 later"
@@ -74,7 +74,8 @@ def _spread(searches):
             top, error = found["statistics"], error_of(found["statistics"], "share_above_1")
             share = with_error(100 * top["share_above_1"], None if error is None else 100 * error, "%", 2)
             largest = index(found["Fi_max"], error_of(found, "Fi_max"))
-            out.append(f"Surface {name}: {share} of it has Fi > 1; the largest of {top['points']} points is {largest}.")
+            points = number_of(top["points"], "point")
+            out.append(f"Surface {name}: {share} of it has Fi > 1; the largest of {points} is {largest}.")
     return out
 
 
@@ -238,8 +239,9 @@ def _none_yet(store):
     state = (f"It is still being written by {writer}." if writer else
              f"It was stopped, or a step did not converge; `tehl resume {typed(store.path.name)}` continues it.")
     question = FATIGUE if store.scene.has_fatigue else FILM
+    steps = part_of(store.last_step, total, "time step", "is", "are")
     return Answer(question, "No answer yet: the run is not finished.", "none", (
-        f"{store.last_step} of {total} time steps are stored{run_in_stage.words(store)}. {state}",), _version(store),
+        f"{steps} stored{run_in_stage.words(store)}. {state}",), _version(store),
         tuple(store.warnings))
 
 

@@ -9,6 +9,7 @@ from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.runs import compare_labels
 from tehl_taichi.runs.compare_labels import flat
 from tehl_taichi.runs.open_results import INSIDE, RUN, kind, open_run
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.path_arguments import folder_of
 
 if TYPE_CHECKING:
@@ -93,7 +94,7 @@ def compare(*paths: "str | PathLike | Run | Study | ContactSet") -> Union[Compar
     from tehl_taichi.store.store import Store
 
     if not 2 <= len(paths) <= MOST:
-        raise SceneError(f"{len(paths)} stores to compare; allowed: 2 to {MOST}")
+        raise SceneError(f"{number_of(len(paths), 'store')} to compare; allowed: 2 to {MOST}")
     folders = [folder_of(path) for path in paths]
     if len({folder.resolve() for folder in folders}) < len(folders):
         raise StoreError(f"{_twice(folders)} is given twice; give different ones")

@@ -9,6 +9,7 @@ from tehl_taichi.runs.pace import about
 from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.store.store import Store
 from tehl_taichi.values.coded_text import grid_option
+from tehl_taichi.values.digits import number_of
 
 EVERY = 15.0  # s between two lines about passages that run
 SURE = 0.01  # of the work that has to be done before its pace gives a remaining time
@@ -22,7 +23,7 @@ def announced(scenes):
         return []
     counts = sorted({total_steps(scene) for scene in passing})
     steps = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
-    line = f"{len(passing)} passage{'s' * (len(passing) > 1)} of {steps} steps on {_cells(passing[0])} cells"
+    line = f"{number_of(len(passing), 'passage')} of {number_of(steps, 'step')} on {_cells(passing[0])} cells"
     if sum(map(coarse_runs.heavy_work, passing)) < LONG:
         return [line]
     return [f"{line}; the remaining time follows from the first steps. Shorter: {'; '.join(_shorter(passing))}"]
@@ -86,7 +87,7 @@ class PassagesLeft:
         if done - before <= SURE * total or done >= total:
             return ""
         seconds = (total - done) * (time.monotonic() - since) / (done - before)
-        return f"{about(seconds)} left for {len(steps)} passage{'s' * (len(steps) > 1)}"
+        return f"{about(seconds)} left for {number_of(len(steps), 'passage')}"
 
 
 def _state(scene, path, done):

@@ -17,6 +17,7 @@ from tehl_taichi.scene import Scene, zoom_room
 from tehl_taichi.store.load_scene import find
 from tehl_taichi.values.checks import flag
 from tehl_taichi.values.coded_warning import texts
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
 from tehl_taichi.values.path_arguments import folder_of, path_of
 
@@ -349,7 +350,7 @@ def _what_is_left(path):
         return f"; {path} can no longer be read"
     if left.finished:
         return f"; {path} is finished"
-    return f" after {left.store.last_step} steps{_missing_words(left)}; resume with: tehl resume {typed(path)}"
+    return f" after {number_of(left.store.last_step, 'step')}{_missing_words(left)}; resume with: tehl resume {typed(path)}"
 
 
 def _missing_words(left):

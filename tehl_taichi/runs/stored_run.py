@@ -11,6 +11,7 @@ from tehl_taichi.errors import StoreError, UnknownName
 from tehl_taichi.runs.summary import summary_numbers
 from tehl_taichi.scene import Scene
 from tehl_taichi.values.checks import callback
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.estimate import Quantity
 
 if TYPE_CHECKING:
@@ -298,7 +299,7 @@ class Run:
 
     def __repr__(self):
         state = "finished" if self.finished else "not finished"
-        return f"<tehl.Run {self.store.scene.name}: {self.store.last_step} steps, {state}, {self.path}>"
+        return f"<tehl.Run {self.store.scene.name}: {number_of(self.store.last_step, 'step')}, {state}, {self.path}>"
 
     def _repr_html_(self):
         """Its summary as a small table, for notebooks."""

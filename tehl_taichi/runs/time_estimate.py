@@ -11,6 +11,7 @@ from tehl_taichi.scene import domain_warnings
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.timeline import total_steps, whole_passage
 from tehl_taichi.store.store import Store
+from tehl_taichi.values.digits import number_of
 
 TRIED, COUNTED = 5, 3  # first steps that are tried, and those that count: kernels are compiled in the ones before
 # Mean time of the steps of whole passages over that of their first ones. Scans: 1.5 to 2.3 (slopes of 1 to 6 deg, 128 to 512
@@ -30,9 +31,9 @@ def lines(run, coarse):
     if not run.scene.transient or pace is None:
         return []
     most = _most(scene) * total * pace
-    line = (f"the whole passage: {total} steps, {about(total * pace)} at the speed of the first steps ({pace:.2g} s each); "
-            f"with {'a rough surface' if _scans(scene) else 'features'} in the contact steps take up to {_most(scene)} times "
-            f"as long: up to {about(most)}; stresses and error bars "
+    line = (f"the whole passage: {number_of(total, 'step')}, {about(total * pace)} at the speed of the first steps "
+            f"({pace:.2g} s each); with {'a rough surface' if _scans(scene) else 'features'} in the contact steps take up to "
+            f"{_most(scene)} times as long: up to {about(most)}; stresses and error bars "
             f"follow{', which take as long again for a wide scan' if _scans(scene) else ''}"
             f"{_repeated(scene)}")
     return [line, *(_faster(scene, coarse, most) if most > LONG else ())]

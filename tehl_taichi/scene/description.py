@@ -53,6 +53,7 @@ from tehl_taichi.scene.unit_texts import in_units
 from tehl_taichi.values.checks import build, file_name, nearest, number
 from tehl_taichi.values.coded_text import CodedText, Option, options_of
 from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.quantity import Text, known_keys
 from tehl_taichi.values.unit_hints import hint
 
@@ -126,7 +127,7 @@ class Scene:
         s, o, count = scales.Scales.of(self), self.operation, len(self.features)
         cells = f"{self.grid.nx} cells" if self.one_dimensional else f"{self.grid.nx} x {self.grid.ny} cells"
         return (f"<tehl.Scene {self.name}: {self.contact.kind} contact, p_H {s.p_H / 1e9:.2f} GPa, u_m {o.u_m:.3g} m/s, "
-                f"SRR {o.srr:g}, {count} feature{'s' * (count != 1)}, {cells}>")
+                f"SRR {o.srr:g}, {number_of(count, 'feature')}, {cells}>")
 
     def __post_init__(self):
         file_name("name", self.name)

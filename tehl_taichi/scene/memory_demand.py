@@ -3,6 +3,7 @@
 import math
 
 from tehl_taichi.disk import memory_limit
+from tehl_taichi.values.digits import number_of
 
 BASE = 80e6  # bytes of kernels and libraries that are not loaded yet, measured on 64x16 cells
 NODE, ACROSS = 2000.0, 400.0  # bytes of a node, and of each of its places across the film: 512x128 and 2048x512 cells
@@ -30,4 +31,4 @@ def check_stresses(shape, depths):
     stresses = depths * STRESSES  # at the end twice: single depths and their stack
     needed = math.prod(shape) * max((GRID if len(shape) > 1 else LINE) + stresses, 2 * stresses)
     nodes = " x ".join(map(str, shape))
-    memory_limit.check(needed, f"computing stresses at {nodes} nodes and {depths} depth{'s' * (depths != 1)}")
+    memory_limit.check(needed, f"computing stresses at {nodes} nodes and {number_of(depths, 'depth')}")

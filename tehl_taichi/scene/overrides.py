@@ -13,6 +13,7 @@ from tehl_taichi.scene.tables import TABLES, as_changes
 from tehl_taichi.scene.timeline import ALL
 from tehl_taichi.values.checks import ALL_KEYS, key_shown, known_names, nearest
 from tehl_taichi.values.coerce import plain, shown, text_of
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.quantity import kinds
 
 TOP = (*TABLES, "feature", "name", "note")
@@ -170,7 +171,7 @@ def _feature(data, number, dotted):
     features = data.get("feature", [])
     if not isinstance(features, list) or len(number) > 6 or int(number) >= len(features):
         count = len(features) if isinstance(features, list) else 0
-        raise SceneError(f"{key_shown(dotted)}: scene {data.get('name')!r} has {count} features")
+        raise SceneError(f"{key_shown(dotted)}: scene {data.get('name')!r} has {number_of(count, 'feature')}")
     return features[int(number)] if isinstance(features[int(number)], dict) else {}
 
 

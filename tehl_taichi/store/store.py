@@ -30,6 +30,7 @@ from tehl_taichi.store.layout import OWN
 from tehl_taichi.store.reader import Reader
 from tehl_taichi.store.store_draft import CaseDraft, StoreDraft
 from tehl_taichi.values.coded_warning import texts
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
 
 
@@ -135,7 +136,7 @@ class Store(LockedFolder, Reader):
     def safely(self):
         """Context manager for disk errors while a passage is written."""
         count = self.attrs["steps"]
-        stored = "1 entry is" if count == 1 else f"{count} entries are"
+        stored = number_of(count, "entry is", "entries are")
         return _disk_errors(self.path, f"{stored} stored; then use: tehl resume {typed(self.path)}")
 
     def _commit(self, **attrs):

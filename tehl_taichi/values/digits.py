@@ -13,6 +13,24 @@ def printed_unit(unit, size):
     return next(known, (1.0, unit))
 
 
+def number_of(count, one, many=""):
+    """Text of a count with its noun; many: plural of `one`, if it is not made by an s.
+
+    >>> number_of(1, "case"), number_of(2, "case"), number_of(2, "point is", "points are")
+    ('1 case', '2 cases', '2 points are')
+    """
+    return f"{count} {one if count == 1 else many or f'{one}s'}"
+
+
+def part_of(count, total, noun, *verbs):
+    """Text of a part of a total; verbs: that of one and that of several.
+
+    >>> part_of(1, 3, "case", "has", "have"), part_of(2, 3, "case", "has", "have"), part_of(1, 1, "case")
+    ('1 of 3 cases has', '2 of 3 cases have', '1 of 1 case')
+    """
+    return " ".join((f"{count} of {number_of(total, noun)}", *verbs[count != 1:][:1]))
+
+
 def micrometres(length):
     """Text of a length (m) in whole micrometres; below ten with two digits."""
     return f"{length * 1e6:.0f}" if length >= 9.95e-6 else f"{length * 1e6:.2g}"

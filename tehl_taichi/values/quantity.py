@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from tehl_taichi.values import checks, units
 from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.unit_hints import hint
 
 AUTO = "auto"
@@ -218,7 +219,7 @@ class Pairs(Kind):
 
     def refusal(self, where, value):
         """Message about a wrong number of pairs, or about missing pairs."""
-        return checks.SceneError(f"{where} has {len(value)} pairs; allowed: {self.allowed}")
+        return checks.SceneError(f"{where} has {number_of(len(value), 'pair')}; allowed: {self.allowed}")
 
     @property
     def allowed(self):

@@ -4,6 +4,8 @@ import csv
 import difflib
 import re
 
+from tehl_taichi.values.digits import number_of
+
 MARKS = ";", "\t", ","  # the first that a text has: with the others numbers may have decimal commas
 # {column that only one kind of table has: command or option that takes such a table}
 TAKEN_BY = {"x_pl_mm": "`tehl flank`", "angle_deg": "`tehl cam`",
@@ -58,7 +60,7 @@ def wrong_length(row, count, why="as in the line of names"):
     """
     if len(row) >= count and not any(row[count:]):
         return ""
-    return (f"has {len(row)} column{'s' * (len(row) != 1)}; allowed: {count}, {why} (a decimal comma needs a semicolon between "
+    return (f"has {number_of(len(row), 'column')}; allowed: {count}, {why} (a decimal comma needs a semicolon between "
             "columns)")
 
 

@@ -28,7 +28,7 @@ def failing(monkeypatch, end=None):
     monkeypatch.setattr(case, "run_case", work)
 
 
-@pytest.mark.parametrize("end, code, said", [(None, 0, ""), ("-03", 3, "1 of 3 angles have no result")])
+@pytest.mark.parametrize("end, code, said", [(None, 0, ""), ("-03", 3, "1 of 3 angles has no result")])
 def test_an_angle_without_a_film_is_no_failure_of_a_cam(tmp_path, monkeypatch, end, code, said):
     failing(monkeypatch, end)
     (tmp_path / "cam.csv").write_text(CAM)
@@ -36,7 +36,7 @@ def test_an_angle_without_a_film_is_no_failure_of_a_cam(tmp_path, monkeypatch, e
     assert found.returncode == code and said in found.stderr and "no result: 10 deg: no load" in found.stdout
 
 
-@pytest.mark.parametrize("end, code, said", [(None, 0, ""), ("-outer", 3, "1 of 2 contacts have no result")])
+@pytest.mark.parametrize("end, code, said", [(None, 0, ""), ("-outer", 3, "1 of 2 contacts has no result")])
 def test_a_ring_that_does_not_converge_is_a_failure(tmp_path, monkeypatch, end, code, said):
     failing(monkeypatch, end)
     found = here("bearing", "6206", *QUICK, "--out", "b", cwd=tmp_path)

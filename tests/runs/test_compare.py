@@ -238,7 +238,7 @@ def test_settings_have_their_units():
         "made.up"]
 
 
-@pytest.mark.parametrize("pick, why", [((0,), "1 stores to compare; allowed: 2 to 8"), ((0, 1, 0), "run.zarr is given twice")])
+@pytest.mark.parametrize("pick, why", [((0,), "1 store to compare; allowed: 2 to 8"), ((0, 1, 0), "run.zarr is given twice")])
 def test_nothing_to_compare_is_refused(two, pick, why):
     with pytest.raises(tehl.Error, match=why):
         tehl.compare(*(two[n] for n in pick))

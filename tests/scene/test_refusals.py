@@ -165,7 +165,7 @@ def test_a_named_oil_comes_before_its_changes():
                                                           "waviness")),
     ({"feature.extent_x": 1e-4}, ("feature.extent_x = 0.0001 has no effect", "shape 'cosine'")),
     ({"srr": 0.0, "operation.u_a": 1.0, "operation.u_b": 2.0}, ("operation.u_a = 1.0 and srr = 0.0 contradict",)),
-    ({"feature.1.height": 1e-6}, ("feature.1.height", "has 1 features")),
+    ({"feature.1.height": 1e-6}, ("feature.1.height", "has 1 feature")),
     ({"feature.0.foo.height": 1e-6}, ("unknown key feature.0.foo.height",)),
     ({"operation.u_a": 1.0}, ("u_a and u_b together",)),
     ({"load": 1e3}, ("contact.load = 1000 N/m", "half-width", "at most 5.6e-07 m", "undeformed gap", "more load")),

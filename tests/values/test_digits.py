@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tehl_taichi.values.digits import micrometres, with_error
+from tehl_taichi.values.digits import micrometres, number_of, part_of, with_error
 
 ROOT = Path(__file__).parents[2]
 
@@ -39,3 +39,21 @@ def test_nothing_else_writes_a_plus_minus():
     code = re.compile(r"\} ± \{")
     sources = [*(ROOT / "tehl_taichi").rglob("*.py"), *(ROOT / "cli").rglob("*.py")]
     assert [path.name for path in sources if code.search(path.read_text(encoding="utf-8"))] == ["digits.py"]
+
+
+@pytest.mark.parametrize("count, verb", [(0, "have"), (1, "has"), (2, "have")])
+def test_a_count_of_one_has_a_singular_noun(count, verb):
+    assert number_of(count, "case") == (f"{count} case" if count == 1 else f"{count} cases")
+    assert number_of(count, "entry", "entries").endswith("entry" if count == 1 else "entries")
+    for total in (1, 3):
+        assert part_of(count, total, "case", "has", "have") == f"{count} of {number_of(total, 'case')} {verb}"
+
+
+def test_no_count_of_a_list_has_a_plural_of_its_own():
+    """A list may have one entry, except in messages about none, too many or at least two."""
+    code = re.compile(r"\{len\([\w.]+\)\} [a-z]+s\b")
+    sources = [*(ROOT / "tehl_taichi").rglob("*.py"), *(ROOT / "cli").rglob("*.py")]
+    found = [hit for path in sources for line in path.read_text(encoding="utf-8").splitlines() for hit in code.findall(line)]
+    assert sorted(found) == [
+        "{len(found)} rows", "{len(found)} rows", "{len(names)} names", "{len(scene.features)} features",
+        "{len(self.stores)} runs", "{len(value)} characters", "{len(warnings)} warnings"]

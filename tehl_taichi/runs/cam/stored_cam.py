@@ -3,6 +3,7 @@
 from tehl_taichi.runs.cam import cam_columns
 from tehl_taichi.runs.cam.cam_table import CamPosition
 from tehl_taichi.runs.contact_set import PositionSet
+from tehl_taichi.values.digits import number_of, part_of
 
 # of an angle in cam.json; other keys came with the table
 KEYS = {"angle_deg", "R_m", "load_N_m", "u_a_m_s", "u_b_m_s", "u_m_m_s", "srr", "p_Hertz_Pa", "store", "converged", "reason",
@@ -37,7 +38,8 @@ class Cam(PositionSet):
     @property
     def title(self) -> str:
         """One-line description of the cam."""
-        return f"{self.name}: {len(self.rows)} angles, {self.record['oil']} at {self.record['temperature_C']:g} deg C"
+        angles = number_of(len(self.rows), "angle")
+        return f"{self.name}: {angles}, {self.record['oil']} at {self.record['temperature_C']:g} deg C"
 
     def with_position(self, number, outcome):
         """Copy with the outcome of one angle."""
@@ -61,4 +63,4 @@ class Cam(PositionSet):
 
     def __repr__(self):
         count = len(self.record["positions"])
-        return f"<tehl.Cam {self.name}: {count - len(self.failed)} of {count} angles, {self.folder}>"
+        return f"<tehl.Cam {self.name}: {part_of(count - len(self.failed), count, 'angle')}, {self.folder}>"

@@ -9,6 +9,7 @@ from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.single_run import check_version
 from tehl_taichi.runs.sweep import case, pool
 from tehl_taichi.values.coded_warning import Kinds
+from tehl_taichi.values.digits import number_of, part_of
 
 STAGE = "positions"
 
@@ -33,7 +34,7 @@ def computed(made, with_outcome, scenes, workers=None, threads=None, progress=No
             made, done = with_outcome(made, n, outcome), done + 1
             made.write()
     except KeyboardInterrupt as stop:
-        raise interrupt(stop, f" after {done} of {len(scenes)} contacts; repeat the command with --out {made.folder} to "
+        raise interrupt(stop, f" after {part_of(done, len(scenes), 'contact')}; repeat the command with --out {made.folder} to "
                               "resume") from None
     return made
 
@@ -80,7 +81,7 @@ def _run(places, todo, workers, threads, progress, folder):
     clock = passages_left.PassagesLeft([places[n] for n in todo], progress.say)
     work = _LocalWork(progress, len(todo), clock) if alone else case.run_case
     if not alone:
-        progress.say(f"{len(todo)} positions on {workers} workers")
+        progress.say(f"{number_of(len(todo), 'position')} on {number_of(workers, 'worker')}")
     for sentence in passages_left.announced([places[n][0] for n in todo]):
         progress.say(sentence)
     found = pool.results(work, jobs, workers=workers, tick=clock.tick)

@@ -3,6 +3,7 @@
 from tehl_taichi.runs.contact_set import PositionSet
 from tehl_taichi.runs.flank import flank_columns
 from tehl_taichi.runs.flank.positions import Position
+from tehl_taichi.values.digits import part_of
 
 # of a position in flank.json; what else stands there came with a table of positions
 KEYS = {"point", "x_pl_m", "arc_m", "rho_a_m", "rho_b_m", "R_m", "u_a_m_s", "u_b_m_s", "srr", "load_N_m", "p_Hertz_Pa",
@@ -65,4 +66,4 @@ class Flank(PositionSet):
 
     def __repr__(self):
         done = len(self.record["positions"]) - len(self.failed)
-        return f"<tehl.Flank {self.name}: {done} of {len(self.record['positions'])} positions, {self.folder}>"
+        return f"<tehl.Flank {self.name}: {part_of(done, len(self.record['positions']), 'position')}, {self.folder}>"

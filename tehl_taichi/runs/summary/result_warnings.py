@@ -18,7 +18,7 @@ from tehl_taichi.scene import yield_stress
 from tehl_taichi.scene.refinement import finer_grid_option, zoom_option
 from tehl_taichi.values.coded_text import Reason, reasons_of
 from tehl_taichi.values.coded_warning import coded_warning, unique, with_data
-from tehl_taichi.values.digits import micrometres, with_error
+from tehl_taichi.values.digits import micrometres, number_of, with_error
 
 STILL = 0.01  # of the largest plastic strain: a passage that adds less has run in
 ABOVE = 0.03  # of the largest pressure of a run: a window with so much more would make more steel flow
@@ -58,8 +58,8 @@ def beyond_measured(store, summary):
 def held_temperatures(store, summary):
     """Warning about temperatures that the solver limited to the allowed range."""
     held = 0 if store.scene.isothermal else int(np.nansum(store.scalar("clamped")))
-    text = (f"temperatures were limited at {held} nodes, to the allowed range or (in columns without a solution) to the inlet "
-            "temperature of the oil")
+    text = (f"temperatures were limited at {number_of(held, 'node')}, to the allowed range or (in columns without a solution) "
+            "to the inlet temperature of the oil")
     return [with_data(text, nodes=held)] if held else []
 
 

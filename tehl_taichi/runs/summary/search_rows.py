@@ -7,7 +7,7 @@ from types import MappingProxyType
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.runs.summary.summary_row import SummaryRow, at_depth, depth_text, row_of
 from tehl_taichi.scene.feature_wording import range_words
-from tehl_taichi.values.digits import micrometres
+from tehl_taichi.values.digits import micrometres, number_of
 
 SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # parts of a search
 
@@ -45,7 +45,7 @@ def _distribution_rows(f):
 
 
 def _percentiles(part, where, at, of):
-    points = f" ({part['points']} points)"
+    points = f" ({number_of(part['points'], 'point')})"
     return [row_of(part, "p99", f"Fi {where}, 99th percentile", where=at, note=points, part=of),
             row_of(part, "p90", f"Fi {where}, 90th percentile", where=at, part=of),
             row_of(part, "median", f"Fi {where}, median", where=at, part=of)]

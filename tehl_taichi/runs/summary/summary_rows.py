@@ -11,14 +11,14 @@ from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.runs.summary import life, limit_meaning
 from tehl_taichi.runs.summary.search_rows import alone_rows, rows_of_fatigue
 from tehl_taichi.runs.summary.summary_row import SummaryRow, at_depth, quantity, row_of
-from tehl_taichi.values.digits import with_error
+from tehl_taichi.values.digits import number_of, with_error
 
 HEIGHTS = ("Sa_m", "Sq_m", "Sz_m", "Ra_m", "Rq_m", "Rz_m")
 
 
 def title(summary):
     """Title of the table."""
-    return f"{summary['scene']}: {summary['steps']} steps, store {summary['store']}"
+    return f"{summary['scene']}: {number_of(summary['steps'], 'step')}, store {summary['store']}"
 
 
 def summary_rows(summary):
@@ -141,7 +141,8 @@ def _run_in_rows(found):
     if not found:
         return []
     made = SummaryRow("passages of run-in", f"{found['passages']}", found["passages"],
-                      note=f" ({found['rounds']} rounds of the first{', shaken down' if found['shaken_down'] else ''})")
+                      note=f" ({number_of(found['rounds'], 'round')} of the first"
+                           f"{', shaken down' if found['shaken_down'] else ''})")
     rows = [row_of(found, "surface_change_max_m", "surface change by run-in", 1e9, "nm"),
             row_of(found, "plastic_strain_max", "plastic strain by run-in, largest", 100, "%"),
             *(row_of(found, f"residual_{end}_Pa", f"residual stress by run-in, {says}", 1e-6, "MPa")

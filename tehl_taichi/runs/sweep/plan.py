@@ -14,6 +14,7 @@ from tehl_taichi.scene.unit_texts import column_in_units
 from tehl_taichi.values.checks import table
 from tehl_taichi.values.coded_warning import counted, lists
 from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.quantity import kinds
 
 LOOKED_AT = 100  # cases among which equal ones are looked for, 10 ms each
@@ -169,7 +170,7 @@ class Plan:
         """
         scenes = list(self._scenes(range(0, self.count, -(-self.count // LOOKED_AT))))
         summaries = ((n, lists(one for one in scene.warnings() if one.code != "idle")) for n, scene in enumerate(scenes))
-        return counted(summaries, f"{len(scenes)} cases{' looked at' * (self.count > LOOKED_AT)}")
+        return counted(summaries, f"{number_of(len(scenes), 'case')}{' looked at' * (self.count > LOOKED_AT)}")
 
     def _scenes(self, numbers):
         """Generator of the scenes of these cases, without refused ones."""
@@ -238,7 +239,7 @@ def _axis(scene, keys, rows):
     except TypeError:  # a number in place of a row, or of the rows
         rows = [[]]
     if any(len(row) != len(keys) for row in rows):
-        raise SceneError(f"{', '.join(keys)}: every row needs {len(keys)} values")
+        raise SceneError(f"{', '.join(keys)}: every row needs {number_of(len(keys), 'value')}")
     return axis_syntax.axis(list(keys), [_numbers(scene, key, list(column)) for key, column in zip(keys, zip(*rows))])
 
 

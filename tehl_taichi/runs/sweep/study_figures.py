@@ -10,6 +10,7 @@ from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
 from tehl_taichi.runs.sweep.study_labels import column_name, key_name, of_column, of_key
 from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
 from tehl_taichi.values.checks import known_names, nearest
+from tehl_taichi.values.digits import part_of
 from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
 from tehl_taichi.view.figures.map_panels import bar
@@ -181,7 +182,7 @@ def _unknown(values, errors):
 
 
 def _count(study):
-    return f"{int(np.isfinite(study.values[JUDGED]).sum())} of {len(study)} cases"
+    return part_of(int(np.isfinite(study.values[JUDGED]).sum()), len(study), "case")
 
 
 def _dress(ax, x_label, x, ticks, in_numbers):

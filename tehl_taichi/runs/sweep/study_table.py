@@ -32,6 +32,7 @@ from tehl_taichi.store import array_file
 from tehl_taichi.store.integrity import ROOT, missing_choice
 from tehl_taichi.values.checks import integer
 from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import cell
 
 TABLE, CASES, PLAN = "table.csv", "cases", "study"  # PLAN: the attribute that makes a group a study
@@ -145,7 +146,7 @@ class Study(LockedFolder):
 
     def __repr__(self):
         counts = ", ".join(f"{count} {word}" for word, count in self.counts.items() if count)
-        return f"<Study {self.path}: {len(self)} cases, {counts}>"
+        return f"<Study {self.path}: {number_of(len(self), 'case')}, {counts}>"
 
     @property
     def counts(self) -> dict[str, int]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from tehl_taichi.runs.flank.flank_columns import error_of, value_at
 from tehl_taichi.values.coded_warning import counted
-from tehl_taichi.values.digits import printed_unit
+from tehl_taichi.values.digits import number_of, part_of, printed_unit
 
 if TYPE_CHECKING:
     from tehl_taichi.runs.sweep.study_table import Study
@@ -102,7 +102,7 @@ class Traction:
     def warnings_of_cases(self) -> list:
         """Further warnings of the cases: the first of every kind, with the number of its cases."""
         results = ((record["case"], record["summary"]) for record in self.study.results())
-        return counted(results, f"{len(self.study)} cases", leave=self.study.plan.doubts())
+        return counted(results, number_of(len(self.study), "case"), leave=self.study.plan.doubts())
 
     def to_dict(self) -> dict:
         """The JSON object of `tehl traction --json`."""
@@ -126,4 +126,4 @@ class Traction:
 
     def __repr__(self):
         done = len(self.study) - len(self.failed)
-        return f"<tehl.Traction {self.study.plan.scene.name}: {done} of {len(self.study)} cases, {self.study.path}>"
+        return f"<tehl.Traction {self.study.plan.scene.name}: {part_of(done, len(self.study), 'case')}, {self.study.path}>"

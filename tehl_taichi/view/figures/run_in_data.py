@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl_taichi.values.digits import number_of
+
 COMPONENTS = {0: "σ_xx", 1: "σ_yy"}  # of the residual stress, by their place
 DEEP = 0.02  # of the largest residual stress: deeper layers have less and are not shown
 
@@ -52,7 +54,7 @@ def added_strains(found, records):
 
 def title(scene, state, found):
     """Title with the scene, the bodies of these profiles, and the number of passages."""
-    count = f"{state.passages} passage{'s' * (state.passages != 1)} before the one that is judged"
+    count = f"{number_of(state.passages, 'passage')} before the one that is judged"
     bodies = " and ".join(one.body for one in found)
     whose = f"bod{'ies' if len(found) > 1 else 'y'} {bodies}"
     return f"{scene.name}: run-in of {whose}, {count if state.passages else 'no steel yields'}"

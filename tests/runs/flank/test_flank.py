@@ -221,7 +221,7 @@ def test_a_position_that_does_not_converge_leaves_the_others(taichi_cpu, tmp_pat
     folder = tmp_path / "short"
     done = CliRunner().invoke(app, ["flank", "fzg-c", "--at", "C", "--steady", "--isothermal", "--set", "numerics.newton_max=1",
                                     "--grid", "64x16", "--out", str(folder), "--quiet", "--no-figure"])
-    assert done.exception.exit_code == 3 and "1 of 1 positions have no result" in str(done.exception)
+    assert done.exception.exit_code == 3 and "1 of 1 position has no result" in str(done.exception)
     record, = json.loads((folder / "flank.json").read_text())["positions"]
     assert not record["converged"] and record["summary"] is None and "did not converge" in record["reason"]
 

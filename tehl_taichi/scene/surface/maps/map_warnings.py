@@ -22,6 +22,7 @@ from tehl_taichi.scene.surface.maps.height_map import LEVELS, ROWS, error_on_gri
 from tehl_taichi.scene.yield_pressure import STEEL
 from tehl_taichi.values.coded_text import Option, grid_option
 from tehl_taichi.values.coded_warning import with_data
+from tehl_taichi.values.digits import number_of
 
 TURNED = "Heights point out of the metal and most bodies are convex; if the map is upside down, set feature.scale = -1"
 LEFT = 0.5  # of the rms that a taper ought to leave
@@ -93,7 +94,7 @@ def _spikes(f):
     if count := int(f.spikes.sum()):
         away = np.where(f.spikes, np.abs(f.part - f.raw), 0.0)
         largest = np.unravel_index(int(away.argmax()), away.shape)
-        many = "1 point is a spike" if count == 1 else f"{count} points are spikes"
+        many = number_of(count, "point is a spike", "points are spikes")
         text = (f"{_name(f)}: {many} of the measurement and filled from the neighbours like points that were not measured; the "
                 f"largest, {_um(away.max())} um, is at {f.place_in_file(*largest)}")
         yield with_data(text, spikes=count, largest_m=float(away.max()))
@@ -102,7 +103,7 @@ def _spikes(f):
 def _row_offsets(f):
     found = f.row_offsets if f.level != ROWS else None
     if found:
-        which = f"at {found.rows} place{'s' * (found.rows > 1)} rows" if found.rows else "the rows"
+        which = f"at {number_of(found.rows, 'place')} rows" if found.rows else "the rows"
         yield (f"{_name(f)}: {which} of the file are offset by about {_um(found.size)} um against the next one, more than "
                "roughness explains (a stitched scan, or one measured line by line); feature.level = 'rows' removes the median "
                "of each row, and with it marks along the rows")

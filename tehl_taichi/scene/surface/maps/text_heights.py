@@ -8,6 +8,7 @@ import numpy as np
 from tehl_taichi.scene.surface.maps import coordinates, line_profiles, point_lists, stated_values
 from tehl_taichi.scene.surface.maps.stated_values import Stated
 from tehl_taichi.values import text_table
+from tehl_taichi.values.digits import number_of
 
 COLUMNS = (*text_table.MARKS, None)  # what may stand between two heights, the first that a row has; None: blanks
 UNMEASURED = ("bad", "bad data", "nan", "na", "n/a", "no data", "no_data", "nodata", "null")  # also nothing, and * or - alone
@@ -62,7 +63,7 @@ class Table:
     def skipped(self):
         """Description of skipped parts; "" without any."""
         counts = ((len(self.header_lines), "header line", "skipped"), (self.inside, "line", "with # among the heights skipped"))
-        lines = [f"{count} {what}{'s' * (count > 1)} {why}" for count, what, why in counts if count]
+        lines = [f"{number_of(count, what)} {why}" for count, what, why in counts if count]
         return ", ".join([*lines, *(f"{what} skipped" for what in self.beside)])
 
 
