@@ -173,7 +173,7 @@ def resume(path: Name, *, steps: int | None = None, threads: int | None = None, 
     >>> import tehl_taichi as tehl
     >>> scene = tehl.scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "thermal.on": False, "time.steps": 1})
     >>> tehl.run(scene, "begun.zarr")
-    <tehl.Run gear: 1 steps, finished, begun.zarr>
+    <tehl.Run gear: 1 step, finished, begun.zarr>
     >>> tehl.resume("begun.zarr", steps=1)
     <tehl.Run gear: 2 steps, finished, begun.zarr>
     """
@@ -250,7 +250,7 @@ def open(path: Name) -> "Run | Study | Flank | Bearing | Cam":
     >>> run.finished, run.scene.name, run.store.fields(0)["pressure"].shape
     (True, 'smooth-line', (33, 1))
     >>> study
-    <Study swept.zarr: 1 cases, 1 converged>
+    <Study swept.zarr: 1 case, 1 converged>
     """
     from tehl_taichi.runs import open_results
 
@@ -600,7 +600,7 @@ def flank(gear: "Name | GearPair" = "fzg-c", *, torque: float | None = None, spe
     >>> import tehl_taichi as tehl
     >>> pitch = tehl.flank("fzg-c", at=["C"], steady=True, changes={"grid.nx": 64, "thermal.on": False}, folder="pitch")
     >>> pitch
-    <tehl.Flank fzg-c: 1 of 1 positions, pitch>
+    <tehl.Flank fzg-c: 1 of 1 position, pitch>
     >>> pitch.positions[0].srr, round(pitch.positions[0].R * 1e3, 2)
     (0.0, 8.38)
     >>> tehl.flank("fzg-c", torque=0)

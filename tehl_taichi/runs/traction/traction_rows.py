@@ -40,7 +40,7 @@ class Traction:
     >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32})
     >>> found = tehl.traction(line, srr=[0.1], path="t.zarr", changes={"thermal.on": False}, workers=1)
     >>> found, f"{found.rows[0]['friction_coefficient']:.2f}"
-    (<tehl.Traction smooth-line: 1 of 1 cases, t.zarr>, '0.08')
+    (<tehl.Traction smooth-line: 1 of 1 case, t.zarr>, '0.08')
     """
 
     def __init__(self, study: "Study") -> None:

@@ -61,7 +61,7 @@ def test_the_numbers_of_rows_are_those_of_their_words():
     assert rows["plastic strain by run-in, largest"].startswith("1.23 %") and "(before 1.5)" in rows["height after run-in"]
     assert rows["autocorrelation length of surface a"] == "24 um along x, 81 um along y"
     assert rows["skewness / rms slope of surface a"] == "-0.30 / 0.021" and rows["Péclet number of surface a / b"] == "11 / 13"
-    place, stresses = "at x, y from the feature centre", "shear amplitude, largest normal stress"
+    place, stresses = "at x, y (as feature.x, feature.y)", "shear amplitude, largest normal stress"
     assert (top[place], deep[place]) == ("8.0, 13.0 um", "-7.0, 21.0 um")
     assert (top[stresses], deep[stresses]) == ("400.0, 20.0 MPa", "440.0, 31.0 MPa")
     assert (top["with kappa, sigma_eF"], deep["with kappa, sigma_eF"]) == ("0.3, 400 MPa", "0.25, 460 MPa")
