@@ -49,7 +49,12 @@ def result_folders(path):
     """
     ways = path.absolute().parent, Path(os.path.realpath(path.absolute().parent))
     return [folder for way in ways for folder in (way, *way.parents)
-            if any(os.path.lexists(folder / mark) for mark in MARKS)]
+            if marks_of(folder)]
+
+
+def marks_of(folder):
+    """Names of the files by which a folder counts as one of results."""
+    return [mark for mark in MARKS if os.path.lexists(folder / mark)]
 
 
 def _links_through(folder):

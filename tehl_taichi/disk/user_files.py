@@ -66,7 +66,8 @@ def check_outside(path, of=None):
     """Raise StoreError if `path` lies inside a store, study, flank, bearing or cam other than `of`."""
     for folder in links.result_folders(path):
         if not (of and os.path.samefile(folder, of)):
-            raise StoreError(f"{path} lies in {folder}, which holds results of tehl; choose another --out")
+            mark = links.marks_of(folder)[0]
+            raise StoreError(f"{path} lies in {folder}, which holds results of tehl ({mark}); choose another --out")
 
 
 def _check_parts(path, parts):

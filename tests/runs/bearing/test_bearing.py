@@ -452,6 +452,12 @@ def test_nothing_else_is_written_into_the_folder_of_a_bearing(dry):
     user_files.check(dry.folder / "other.png", of=dry.folder)
 
 
+def test_the_file_that_makes_a_folder_one_of_results_is_named(tmp_path):
+    (tmp_path / "bearing.json").write_text("{}")  # what a user saved of --json
+    with pytest.raises(StoreError, match=r"results of tehl \(bearing.json\); choose another path"):
+        user_files.check(tmp_path / "runs" / "gear-1.zarr")
+
+
 @pytest.mark.parametrize("words, said", [
     (("6206", "--dent", "10e-6"), "--dent '10e-6' must have the form DEPTH,WIDTH,rim=HEIGHT"),
     (("6206", "--dent", "1e-6,2e-4,edge=3"), "must have the form DEPTH,WIDTH,rim=HEIGHT"),
