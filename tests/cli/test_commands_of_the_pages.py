@@ -22,7 +22,7 @@ from tehl_taichi.errors import Error
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SMALL = "--grid 64x16 --isothermal --no-fatigue --no-estimate-error --quiet"
-SHORT = {"run": f"{SMALL} --steps 0 --force --out made.zarr", "sweep": "--dry-run",
+SHORT = {"run": f"{SMALL} --steps 0 --force --out made.zarr", "sweep": "--dry-run --out plan.zarr",
          "flank": "--grid 64 --isothermal --steady --no-figure", "bearing": "--no-run --no-figure",
          "traction": "--grid 64x16 --isothermal --no-figure --workers 1",
          "roller": "--no-run --no-figure", "cam": "--grid 64 --isothermal --no-figure --workers 1",
@@ -32,7 +32,7 @@ SHORT = {"run": f"{SMALL} --steps 0 --force --out made.zarr", "sweep": "--dry-ru
          "report": "--force", "export": "--force"}
 AT_REST = "--isothermal --steps 0 --no-fatigue --no-estimate-error --quiet --force --set time.steady_only=true"
 FENCED = re.compile(r"^```\w*\n(.*?)^```", re.M | re.S)
-FILLED = {"STORE": "runs/gear-1.zarr", "STUDY": "runs/gear-sweep-3219f7.zarr", "NEW": "new.zarr", "NAME": "dent", "N": "1",
+FILLED = {"STORE": "runs/gear-1.zarr", "STUDY": "runs/heights.zarr", "NEW": "new.zarr", "NAME": "dent", "N": "1",
           "K": "0.3", "COMMAND": "run"}
 WITH = {"mp4": shutil.which("ffmpeg"), "netcdf": find_spec("xarray"), "--scheduler": find_spec("distributed")}  # what they need
 SUITES = {"accuracy": "accuracy.run", "speed": "speed.run", "scaling": "scaling.run", "stability": "stability.run",
@@ -103,7 +103,7 @@ def _study(place):
         return {"status": "converged", "reason": "", "summary": summary, "seconds": 1.0}
 
     scene = tehl.scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16})
-    for name in ("gear-sweep-3219f7", "gear-sweep-0a1b2c"):
+    for name in ("heights", "gear-sweep-0a1b2c"):
         sweeping.run(plan(scene, {"srr": [-0.1, 0.1]}), place / "runs" / f"{name}.zarr", workers=1, keep="summary", work=work)
     (place / "study.toml").write_text('scene = "gear"\n[over]\nsrr = [-0.1, 0.1]\n')
 
