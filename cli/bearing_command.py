@@ -8,11 +8,10 @@ from tehl_cli.bearing_features import feature_of
 from tehl_cli.bearing_options import DIMENSIONS, SCANNED, contacts, loads
 from tehl_cli.idle_options import say_idle, say_no_figure
 from tehl_cli.live_display import Live, say
+from tehl_cli.missing_results import refuse_missing
 from tehl_cli.scene_options import changes_of
 from tehl_cli.shared_options import sharing
 from tehl_cli.stdout import print_json, put
-
-from tehl_taichi.values.digits import part_of
 
 
 def register(app):
@@ -85,12 +84,7 @@ def _compute(which, context, own, scene, figure, as_json, quiet, curves, format,
     if figure:
         say(str(found.plot(**vars(page))))
     print_json(found.to_dict()) if as_json else print_bearing(found)
-    if found.failed:
-        from tehl_taichi.errors import NotConverged
-
-        failed = part_of(len(found.failed), 2, "contact", "has", "have")
-        raise NotConverged(f"{failed} no result; the other is in {found.folder}. Try another "
-                           "--grid or --set with a new --out")
+    refuse_missing(found.failed, 2, "contact", found.folder, "the other is")
 
 
 def _compute_bearing(which, own, live, oil, temperature, thermal, grid, set_, out, **shared):

@@ -9,10 +9,9 @@ from tehl_cli.bearing_features import feature_of
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import Live, say
+from tehl_cli.missing_results import refuse_missing
 from tehl_cli.scene_options import changes_of
 from tehl_cli.stdout import print_json, put
-
-from tehl_taichi.values.digits import part_of
 
 
 def register(app):
@@ -66,12 +65,7 @@ def cam(
     if figure:
         say(str(found.plot(**vars(page))))
     print_json(found.to_dict()) if as_json else print_cam(found)
-    if found.not_converged:
-        from tehl_taichi.errors import NotConverged
-
-        failed = part_of(len(found.not_converged), len(found.rows), "angle", "has", "have")
-        raise NotConverged(f"{failed} no result; the others are "
-                           f"in {found.folder}. Try another --grid or --set with a new --out")
+    refuse_missing(found.not_converged, len(found.rows), "angle", found.folder)
 
 
 def print_cam(found):

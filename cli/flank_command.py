@@ -8,10 +8,9 @@ from tehl_cli.amount import amount, number
 from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import Live, say
+from tehl_cli.missing_results import refuse_missing
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
-
-from tehl_taichi.values.digits import part_of
 
 
 def register(app):
@@ -75,12 +74,7 @@ def flank(
     if figure:
         say(str(found.plot(**vars(page))))
     print_json(found.to_dict()) if as_json else print_flank(found)
-    if found.failed:
-        from tehl_taichi.errors import NotConverged
-
-        failed = part_of(len(found.failed), len(found.positions), "position", "has", "have")
-        raise NotConverged(f"{failed} no result; the others "
-                           f"are in {found.folder}. Try another --grid or --set with a new --out")
+    refuse_missing(found.failed, len(found.positions), "position", found.folder)
 
 
 def _line(gear, base, changes, steady):

@@ -48,8 +48,7 @@ def result_folders(path):
     links.
     """
     ways = path.absolute().parent, Path(os.path.realpath(path.absolute().parent))
-    return [folder for way in ways for folder in (way, *way.parents)
-            if marks_of(folder)]
+    return [folder for way in ways for folder in (way, *way.parents) if marks_of(folder)]
 
 
 def marks_of(folder):

@@ -88,8 +88,10 @@ def _counted(passage, profiles):
     pass, further rows are searched by what is worst in them, which depends on rounding.
     """
     found = [(_row(passage, profile.worst.y), profile) for profile in profiles]
+    if is_rough(passage.scene):
+        return found
     middle = {_row(passage, f.centre_y) for f in passage.scene.features}
-    return [one for one in found if one[0] in middle and not is_rough(passage.scene)] or found
+    return [one for one in found if one[0] in middle] or found
 
 
 def _row(passage, y):

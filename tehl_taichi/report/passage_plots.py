@@ -115,7 +115,7 @@ def _caption(store, shown):
     caption = f"{along[0].upper()}{along[1:]}.{_carries(store)}"
     if len(shown) > 1:
         caption += f" Grey: the steady start; dotted: the centre of the {feature_word(store.scene)}."
-    left = [f"{part_of(len(shown), store.steps, 'stored moment')}"] * (len(shown) < store.steps)
+    left = [part_of(len(shown), store.steps, "stored moment")] * (len(shown) < store.steps)
     return caption + (f" {left[0]} are kept in this page." if left else "")
 
 

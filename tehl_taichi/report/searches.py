@@ -49,4 +49,3 @@ def searches(store, result=None):
     both = [Search(scene, part, resolved_words(part.summary, position_word(scene)), "resolved-", PART),
             Search(scene, result, f"{over}, later pressures not resolved by the grid", short=over)]
     return both if deciding(result.summaries)[1] else both[::-1]
-

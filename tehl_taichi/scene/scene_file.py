@@ -87,7 +87,7 @@ def from_data(data, name, changes=()):
     own = _tables(data)
     u_m = data["operation"].get("u_m") if isinstance(data.get("operation"), dict) else None
     described = _spelled_out(_on_base(base, {"name": name, **data}))
-    before = _valid_alone(described)
+    before = _valid_alone(described) if changes else None
     found = Scene.from_dict(overrides.apply_changes(described, changes))
     overrides.check_effect(found, changes)
     if not changes.keys() & set(aliases.LOADS):

@@ -49,24 +49,28 @@ class LocalWorkers:
         self._hand_out(work, waiting)
         while self.busy:
             for pipe in wait(list(self.busy), PAUSE):
-                worker = self.busy.pop(pipe)
-                number, job = worker.job
-                if (answer := worker.answer()) == READY:
-                    self.busy[pipe] = worker
-                    continue
-                if answer is not None:
-                    self.idle.append(worker)
-                elif code := worker.own_end:
-                    raise RuntimeUnavailable(COMPUTES if code == runtime.IMPORTED else FAILS)
-                elif worker.tries < TRIES:
-                    self._give(Worker(), work, number, job, worker.tries + 1)
-                    continue
-                else:
-                    answer = LostJob(DIED)
-                self._hand_out(work, waiting)
-                yield number, answer
+                if found := self._heard(pipe, work):
+                    self._hand_out(work, waiting)
+                    yield found
             self._end_the_greedy()
             self.tick()
+
+    def _heard(self, pipe, work):
+        """(number of the job, its answer) of the worker at a pipe; None while it is computed, there or by a new worker."""
+        worker = self.busy.pop(pipe)
+        number, job = worker.job
+        if (answer := worker.answer()) == READY:
+            self.busy[pipe] = worker
+            return None
+        if answer is not None:
+            self.idle.append(worker)
+            return number, answer
+        if code := worker.own_end:
+            raise RuntimeUnavailable(COMPUTES if code == runtime.IMPORTED else FAILS)
+        if worker.tries < TRIES:
+            self._give(Worker(), work, number, job, worker.tries + 1)
+            return None
+        return number, LostJob(DIED)
 
     def _hand_out(self, work, waiting):
         while len(self.busy) < self.count and (job := next(waiting, None)):
