@@ -289,11 +289,10 @@ class StressHistories:
         start = self._start(np.arange(self.centres.size))
         whole = np.where(np.abs(start - np.rint(start)) < WHOLE, np.rint(start), np.floor(start)).astype(int)
         part = np.where(np.abs(start - whole) < WHOLE, 0.0, start - whole)
-        columns, entries = whole[:, None] + np.arange(self.x.size), self.ticks[self.entries][:, None]
-        out = np.zeros((*columns.shape, fields.shape[-1]))
-        for node, weight in zip(NODES, lagrange(NODES, part)):
-            out += weight[:, None, None] * fields[entries, np.clip(columns + node, 0, fields.shape[1] - 1)]
-        return out.swapaxes(0, 1)
+        found = _windows(fields.transpose(2, 0, 1), self.ticks[self.entries], whole, self.x.size)
+        weighted = [(weight, node) for weight, node in zip(lagrange(NODES, part), NODES) if weight.any()]
+        out = sum(weight[:, None] * found[..., node - NODES[0] :][..., : self.x.size] for weight, node in weighted)
+        return out.transpose(2, 1, 0)
 
     def _neighbours(self, entries):
         """The moments of some entries, as arrays of consecutive moments with at most `block` each."""
@@ -364,6 +363,15 @@ def between(fields, ticks):
             yield (1 - part) * before[1] + part * field
         yield field
         before = at, field
+
+
+def _windows(fields, entries, whole, count):
+    """Columns from the first of NODES before `whole` to the last one behind `count` of them, (parts, moments, columns), of fields
+    (parts, steps, columns) at `entries`; columns beyond the ends repeat them."""
+    first, size = whole + NODES[0], count + len(NODES) - 1
+    before, behind = max(0, -first.min()), max(0, first.max() + size - fields.shape[2])
+    padded = np.pad(fields, ((0, 0), (0, 0), (before, behind)), "edge") if before or behind else fields
+    return np.lib.stride_tricks.sliding_window_view(padded, size, axis=2)[:, entries, first + before]
 
 
 def shifted(fields, start, count):
