@@ -1,4 +1,4 @@
-"""`tehl run` and `tehl resume`."""
+"""`tehl run`, `tehl resume` and `tehl zoom`."""
 
 from pathlib import Path
 from typing import Any, List, Optional
@@ -9,7 +9,7 @@ from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import Live, say
 from tehl_cli.scene_options import GRIDS, changes_of, check_rows
 from tehl_cli.stdout import print_json, put
-from tehl_cli.timing import print_budget, time_budget
+from tehl_cli.timing import OPTION, print_budget, time_budget
 
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
@@ -66,7 +66,7 @@ def run(
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
     quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
     curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal during the run"),
-    timing: bool = typer.Option(False, "--timing", help="print the time of each part of the command"),
+    timing: bool = OPTION,
 ):
     """Run one contact: steady start, passage of the feature, stresses, fatigue; write all results to a store.
 
@@ -119,6 +119,7 @@ def resume(
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
     quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
     curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal during the run"),
+    timing: bool = OPTION,
 ):
     """Resume an interrupted run, or extend a run stopped with `--steps`.
 
@@ -136,9 +137,9 @@ def resume(
         if as_json:
             print_json(before.summary)
         return
-    with Live(quiet, curves) as live:
+    with Live(quiet, curves) as live, time_budget(live if timing else None) as budget:
         done = tehl.resume(store, steps=steps, threads=threads, progress=live)
-    _print(done, as_json)
+    _print(done, as_json, budget=budget)
 
 
 def zoom(
@@ -149,6 +150,7 @@ def zoom(
     threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
     as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
     quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+    timing: bool = OPTION,
 ):
     """Add a fine window that moves with the feature to a finished run; the steps of the run are kept.
 
@@ -158,9 +160,9 @@ def zoom(
     """
     import tehl_taichi as tehl
 
-    with Live(quiet, False) as live:
+    with Live(quiet, False) as live, time_budget(live if timing else None) as budget:
         done = tehl.zoom(store, factor, threads=threads, progress=live)
-    _print(done, as_json)
+    _print(done, as_json, budget=budget)
 
 
 def _print(run, as_json, printed=(), budget=None):

@@ -2,6 +2,10 @@
 
 import contextlib
 
+import typer
+
+OPTION = typer.Option(False, "--timing", help="print the time of each part of the command")
+
 
 @contextlib.contextmanager
 def time_budget(live):

@@ -215,8 +215,10 @@ def test_parts_of_the_time_of_a_command_leave_nothing_out(tmp_path):
     assert all(seconds >= 0 for seconds in parts.values()) and 0.8 * whole - 0.3 < sum(parts.values()) < whole
     shown = tehl(*words, "--quiet", cwd=tmp_path).stdout
     assert "where the time went" in shown and "passage: pressure" in shown and "100 %" in shown
-    plain = tehl("run", "pitch-line", "--grid", "64x16", "--steps", 0, "--json", cwd=tmp_path).stdout
+    plain = tehl("run", "pitch-line", "--grid", "64x16", "--steps", 0, "--json", "--out", "plain.zarr", cwd=tmp_path).stdout
     assert "timing_s" not in json.loads(plain)
+    parts = json.loads(tehl("resume", "plain.zarr", "--steps", 1, "--timing", "--json", cwd=tmp_path).stdout)["timing_s"]
+    assert {"imports and scene", "passage: rest", "passage: pressure"} <= set(parts) and "steady start" not in parts
 
 
 def test_an_existing_store_is_not_overwritten(finished):

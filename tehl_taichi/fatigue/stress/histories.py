@@ -366,8 +366,9 @@ def between(fields, ticks):
 
 
 def _windows(fields, entries, whole, count):
-    """Columns from the first of NODES before `whole` to the last one behind `count` of them, (parts, moments, columns), of fields
-    (parts, steps, columns) at `entries`; columns beyond the ends repeat them."""
+    """Columns from the first of NODES before `whole` to the last one behind `count` of them, (parts, moments, columns), of
+    fields (parts, steps, columns) at `entries`; columns beyond the ends repeat them.
+    """
     first, size = whole + NODES[0], count + len(NODES) - 1
     before, behind = max(0, -first.min()), max(0, first.max() + size - fields.shape[2])
     padded = np.pad(fields, ((0, 0), (0, 0), (before, behind)), "edge") if before or behind else fields
