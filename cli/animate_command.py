@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Optional
 
 import typer
-from tehl_cli.figure_options import Dpi, Width
+from tehl_cli import usual_options as usual
 from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
@@ -22,10 +22,10 @@ def animate(
     frames: int = typer.Option(120, help="largest number of frames, spread evenly over the passage, 2 to 2000"),
     fps: int = typer.Option(15, help="frames per second, 1 to 50"),
     shown: str = typer.Option("film", "--map", help="map below the curves: film, pressure or temperature"),
-    dpi: Dpi = 110,
-    width: Width = 17.0,
-    force: bool = typer.Option(False, "--force", help="replace an existing file that tehl wrote"),
-    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+    dpi: usual.Dpi = 110,
+    width: usual.Width = 17.0,
+    force: usual.Force = False,
+    quiet: usual.Quiet = False,
 ):
     """Write a GIF or MP4 of the passage: pressure, film and temperatures along the centreline, with a map below.
 

@@ -1,10 +1,10 @@
 """Options that `tehl bearing` and `tehl roller` share."""
 
 from pathlib import Path
-from typing import Annotated, List, Optional
+from typing import Annotated, Optional
 
+from tehl_cli import usual_options as usual
 from tehl_cli.amount import also_number
-from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from typer import Option
 
 DIMENSIONS = ("pitch_diameter", "contact_angle", "clearance", "outer_speed")  # of the bearing
@@ -28,38 +28,28 @@ def contacts(
     contact_angle: Annotated[Optional[float], also_number("contact angle without load, degrees (tapered rollers: of the outer "
                                                           "ring)")] = None,
     clearance: Annotated[Optional[float], also_number("radial clearance in operation, m (default: 0)")] = None,
-    oil: Annotated[Optional[str], Option(help="name of the oil (`tehl oils`)")] = None,
-    temperature: Annotated[Optional[float], also_number("inlet temperature, deg C")] = None,
+    oil: usual.Oil = None, temperature: usual.Temperature = None,
     dent: Annotated[Optional[str], Option(help="dent that passes: DEPTH,WIDTH,rim=HEIGHT in m, for example "
                                                "10e-6,0.3e-3,rim=1.2e-6; rim_width=WIDTH may follow")] = None,
     scan: Annotated[Optional[Path], Option(help="file of measured heights that pass, on a grid or along a line")] = None,
-    unit: Annotated[Optional[str], Option(help="unit of the heights of --scan, if the file does not state it")] = None,
-    pixel: Annotated[Optional[float], also_number("distance of the points of --scan in m, where the file does not state "
-                                                  "it")] = None,
+    unit: usual.Unit = None, pixel: usual.Pixel = None,
     on: Annotated[str, Option(help="ring that carries the dent or scan: inner or outer")] = "inner",
     roughness: Annotated[Optional[float], also_number("rms height of both surfaces together, m, for lambda = h_c/Sq")] = None,
-    scene: Annotated[Optional[str], Option(help="scene with oil, bodies, features and numerics: built-in name, TOML file or "
-                                                "store")] = None,
-    steady: Annotated[bool, Option("--steady", help="steady contacts without the features of --scene")] = False,
+    scene: usual.Base = None, steady: usual.Smooth = False,
     thermal: Annotated[Optional[bool], Option("--thermal/--isothermal", help="with or without the energy equation (default: "
                                                                              "with it if elements slip)")] = None,
-    set_: Annotated[Optional[List[str]], Option("--set", help="dotted.key=value of the scenes, repeatable")] = None,
+    set_: usual.SetInScenes = None,
     grid: Annotated[Optional[str], Option(help="coarse, medium, fine or NXxNY (default: 128x32 for steady contacts)")] = None,
     run: Annotated[bool, Option("--run/--no-run", help="compute both contacts, or print loads, dry contacts and formulas "
                                                        "only")] = True,
     out: Annotated[Optional[Path], Option(help="folder to write (default: runs/NAME-N); existing runs in it are "
                                                 "resumed")] = None,
     figure: Annotated[bool, Option("--figure/--no-figure", help="draw bearing.png (.pdf, .svg) in that folder")] = True,
-    format: Format = "png",
-    dpi: Dpi = 160,
-    figure_width: FigureWidth = 17.0,
+    format: usual.Format = "png", dpi: usual.Dpi = 160, figure_width: usual.FigureWidth = 17.0,
     workers: Annotated[Optional[int], Option(help="number of contacts computed at the same time (default: one per "
                                                    "core; 1 while a feature passes)")] = None,
     threads: Annotated[Optional[int], Option(help="CPU threads per contact (default: the cores that --workers leaves, or "
                                                   "1)")] = None,
-    as_json: Annotated[bool, Option("--json", help="print one JSON object to stdout and all else to stderr")] = False,
-    quiet: Annotated[bool, Option("--quiet", help="print no progress")] = False,
-    curves: Annotated[bool, Option("--live/--no-live", help="draw p, h and T along y = 0 in the terminal (with --workers "
-                                                            "1)")] = True,
+    as_json: usual.AsJson = False, quiet: usual.Quiet = False, curves: usual.CurvesOfOne = True,
 ):
     """Options for contacts, scenes, results and progress."""

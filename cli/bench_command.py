@@ -5,7 +5,7 @@ from typing import Optional
 
 import typer
 from tehl_cli.bench_accuracy import accuracy
-from tehl_cli.bench_options import FORCE, JSON, OUT, QUICK, THREADS, WORKERS, WRITE, cores, folder
+from tehl_cli.bench_options import FORCE, JSON, OUT, QUICK, THREADS, WORKERS, WRITE, Heat, cores, folder
 from tehl_cli.bench_stability import stability
 from tehl_cli.live_display import say
 from tehl_cli.suite_results import Results, table, texts
@@ -168,7 +168,7 @@ def speed(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: boo
 
 def scaling(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, write: bool = WRITE,
             threads: Optional[int] = THREADS,
-            thermal: bool = typer.Option(False, "--thermal/--isothermal", help="with or without temperatures")):
+            thermal: Heat = False):
     """Measure time and memory against grid size and threads. Example: `tehl bench scaling --quick`"""
     from tehl_taichi.profiles import scaling as suite
 
@@ -196,7 +196,7 @@ def sweep(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: boo
 
 def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, write: bool = WRITE,
             threads: Optional[int] = THREADS,
-            thermal: bool = typer.Option(True, "--thermal/--isothermal", help="with or without temperatures")):
+            thermal: Heat = True):
     """Measure the time of a step per stage and per kernel. Example: `tehl bench profile --isothermal`"""
     from tehl_taichi.profiles import measure
     from tehl_taichi.profiles import profile as suite

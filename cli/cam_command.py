@@ -1,12 +1,11 @@
 """tehl cam: the contact of a cam and its follower over the cycle."""
 
 from pathlib import Path
-from typing import List, Optional
+from typing import Optional
 
 import typer
-from tehl_cli.amount import number
+from tehl_cli import usual_options as usual
 from tehl_cli.bearing_features import feature_of
-from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import Live, say
 from tehl_cli.missing_results import refuse_missing
@@ -22,29 +21,19 @@ def register(app):
 def cam(
     table: Path = typer.Argument(..., help="CSV: angle_deg, load_N_per_mm, R_mm (or R_a_mm and R_b_mm), u_a_m_s, u_b_m_s"),
     context: typer.Context = None,
-    oil: Optional[str] = typer.Option(None, help="name of the oil (`tehl oils`)"),
-    temperature: Optional[float] = number("inlet temperature, deg C"),
+    oil: usual.Oil = None, temperature: usual.Temperature = None,
     dent: Optional[str] = typer.Option(None, help="dent of the cam that passes: DEPTH,WIDTH,rim=HEIGHT in m"),
     scan: Optional[Path] = typer.Option(None, help="file of measured heights of the cam that pass"),
-    unit: Optional[str] = typer.Option(None, help="unit of the heights of --scan, if the file does not state it"),
-    pixel: Optional[float] = number("distance of the points of --scan in m, if the file does not state it"),
-    scene: Optional[str] = typer.Option(None, help="scene with oil, bodies, features and numerics: built-in name, TOML file or "
-                                                   "store"),
-    steady: bool = typer.Option(False, "--steady", help="steady contacts without the features of --scene"),
-    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with (default) or without energy equation"),
-    set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value of the scenes, repeatable"),
+    unit: usual.Unit = None, pixel: usual.Pixel = None,
+    scene: usual.Base = None, steady: usual.Smooth = False,
+    thermal: usual.UsuallyThermal = None, set_: usual.SetInScenes = None,
     grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY"),
     out: Optional[Path] = typer.Option(None, help="folder to write (default: runs/NAME-N); an existing cam is resumed"),
     figure: bool = typer.Option(True, "--figure/--no-figure", help="draw cam.png (.pdf, .svg) in that folder"),
-    format: Format = "png",
-    dpi: Dpi = 160,
-    figure_width: FigureWidth = 17.0,
+    format: usual.Format = "png", dpi: usual.Dpi = 160, figure_width: usual.FigureWidth = 17.0,
     workers: Optional[int] = typer.Option(None, help="number of angles computed at the same time (default: one per core)"),
     threads: Optional[int] = typer.Option(None, help="CPU threads per angle (default: the cores that --workers leaves, or 1)"),
-    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
-    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
-    curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal (with --workers "
-                                                               "1)"),
+    as_json: usual.AsJson = False, quiet: usual.Quiet = False, curves: usual.CurvesOfOne = True,
 ):
     """Compute the line contacts of a cam over its cycle: film, pressure, temperature and friction at each angle of a table.
 

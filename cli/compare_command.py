@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, List, Optional
 
 import typer
-from tehl_cli.figure_options import Dpi, Force, Format, Width
+from tehl_cli import usual_options as usual
 from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json, put
@@ -25,11 +25,8 @@ def compare(
     at: float = typer.Option(0.0, help="runs: position of the feature in the centreline plots, in half-widths a"),
     out: Optional[Path] = typer.Option(None, help="figure to write: .png, .pdf or .svg (default: compare.png, compare-2.png "
                                                   "... beside the first store)"),
-    format: Format = "png",
-    dpi: Dpi = 160,
-    width: Width = 17.0,
-    force: Force = False,
-    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
+    format: usual.Format = "png", dpi: usual.Dpi = 160, width: usual.Width = 17.0, force: usual.Force = False,
+    as_json: usual.AsJson = False,
 ):
     """Compare results of one kind: differences between settings and results with their error bars, and one figure.
 

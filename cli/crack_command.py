@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import Optional
 
 import typer
+from tehl_cli import usual_options as usual
 from tehl_cli.amount import number
-from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json, put
@@ -42,13 +42,9 @@ def crack(
                                                   help="include thermal stress (default: as in the run)"),
     elements: int = typer.Option(12, help="number of elements of a straight crack, 6 to 200"),
     keep: bool = typer.Option(False, "--keep", help="save the result beside the store, for `tehl report`"),
-    figures: Optional[Path] = typer.Option(None, help="folder for the figure"),
-    format: Format = "png",
-    dpi: Dpi = 160,
-    width: Width = 17.0,
-    force: Force = False,
-    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
+    figures: usual.Figures = None,
+    format: usual.Format = "png", dpi: usual.Dpi = 160, width: usual.Width = 17.0, force: usual.Force = False,
+    threads: usual.Threads = None, as_json: usual.AsJson = False,
 ):
     """Compute crack paths in one body from both sides of the feature, in the plane y = 0. The store does not change.
 

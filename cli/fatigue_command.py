@@ -1,11 +1,10 @@
 """tehl fatigue: fatigue search of a store with other constants."""
 
 from pathlib import Path
-from typing import Optional
 
 import typer
+from tehl_cli import usual_options as usual
 from tehl_cli.fatigue_options import with_fatigue_options
-from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import Live, say
 from tehl_cli.stdout import print_json
@@ -20,13 +19,9 @@ def register(app):
 def fatigue(
     store: Path = typer.Argument(..., help="store of a run with a feature, finished or not"),
     context: typer.Context = None,
-    figures: Optional[Path] = typer.Option(None, help="folder for figures"),
-    format: Format = "png",
-    dpi: Dpi = 160,
-    width: Width = 17.0,
-    force: Force = False,
-    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
+    figures: usual.Figures = None,
+    format: usual.Format = "png", dpi: usual.Dpi = 160, width: usual.Width = 17.0, force: usual.Force = False,
+    threads: usual.Threads = None, as_json: usual.AsJson = False,
     **constants,
 ):
     """Evaluate the fatigue of a stored passage with other constants. The store does not change.

@@ -4,6 +4,7 @@ import functools
 from typing import Annotated, Optional
 
 import typer
+from tehl_cli import usual_options as usual
 from tehl_cli.amount import also_number, amount, metres, refuse_zeros
 from tehl_cli.shared_options import sharing
 
@@ -13,12 +14,8 @@ from tehl_taichi.laws.hardness import RELATIONS
 
 
 def _options(
-    kappa: Annotated[Optional[float], typer.Option(help="sensitivity to normal stress kappa_F")] = None,
-    endurance: Annotated[Optional[float], also_number("fatigue limit sigma_eF, Pa")] = None,
-    bending_limit: Annotated[Optional[float], also_number("fatigue limit in reversed bending, Pa (replaces "
-                                                          "--endurance)")] = None,
-    torsion_limit: Annotated[Optional[float], also_number("fatigue limit in reversed torsion, Pa (one limit fixes "
-                                                          "sigma_eF; both limits also fix kappa)")] = None,
+    kappa: usual.Kappa = None, endurance: usual.Endurance = None,
+    bending_limit: usual.BendingLimit = None, torsion_limit: usual.TorsionLimit = None,
     criterion: Annotated[Optional[str], typer.Option(help="criterion: " + ", ".join(CRITERIA))] = None,
     table: Annotated[Optional[str], typer.Option(help="strength over depth: a CSV file or a built-in table such as "
                                                       "case-hardened ('': none)")] = None,

@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
+from tehl_cli import usual_options as usual
 from tehl_cli.amount import amount, number
-from tehl_cli.figure_options import Dpi, FigureWidth, Format
 from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import Live, say
 from tehl_cli.missing_results import refuse_missing
@@ -28,29 +28,19 @@ def flank(
                                                            "(default: 11)"),
     at: Optional[List[str]] = typer.Option(None, help="one position instead: a point (C, B-) or a distance past C in m; "
                                                       "repeatable"),
-    scene: Optional[str] = typer.Option(None, help="scene with oil, bodies, feature and numerics: built-in name, TOML file or "
-                                                   "store"),
+    scene: usual.Base = None,
     steady: bool = typer.Option(False, "--steady", help="steady contacts without a feature"),
-    oil: Optional[str] = typer.Option(None, help="name of the oil (`tehl oils`)"),
-    temperature: Optional[float] = number("inlet temperature, deg C"),
-    height: Optional[float] = number("feature height, m (negative: dent)"),
-    width: Optional[float] = number("feature width, m"),
-    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
-    set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value of the scene, repeatable"),
-    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (NX alone if nothing varies along y)"),
+    oil: usual.Oil = None, temperature: usual.Temperature = None,
+    height: usual.Height = None, width: usual.FeatureWidth = None,
+    thermal: usual.Thermal = None, set_: usual.SetInScenes = None, grid: usual.Grid = None,
     out: Optional[Path] = typer.Option(None, help="folder to write (default: runs/NAME-N); an existing flank is resumed"),
     figure: bool = typer.Option(True, "--figure/--no-figure", help="draw flank.png (.pdf, .svg) in that folder"),
-    format: Format = "png",
-    dpi: Dpi = 160,
-    figure_width: FigureWidth = 17.0,
+    format: usual.Format = "png", dpi: usual.Dpi = 160, figure_width: usual.FigureWidth = 17.0,
     workers: Optional[int] = typer.Option(None, help="number of positions computed at the same time, one process each "
                                                      "(default: one per core)"),
     threads: Optional[int] = typer.Option(None, help="CPU threads per position (default: the cores that --workers leaves, or "
                                                      "1)"),
-    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
-    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
-    curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal (with --workers "
-                                                               "1)"),
+    as_json: usual.AsJson = False, quiet: usual.Quiet = False, curves: usual.CurvesOfOne = True,
 ):
     """Compute the contacts along a gear flank: film, pressure, temperature, friction and fatigue at each position.
 

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Optional
 
 import typer
+from tehl_cli import usual_options as usual
 from tehl_cli.fatigue_options import with_fatigue_options
 from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import Live
@@ -22,7 +23,7 @@ def report(
     context: typer.Context = None,
     out: Optional[Path] = typer.Option(None, help="HTML file to write (default: beside the store; with other fatigue "
                                                   "constants: STORE-fatigue.html)"),
-    force: bool = typer.Option(False, "--force", help="replace an existing file that tehl wrote"),
+    force: usual.Force = False,
     open_: bool = typer.Option(False, "--open/--no-open", help="open the report in the browser"),
     pages: bool = typer.Option(False, "--pages", help="flank or cam: also write the page of every position, linked from this "
                                                       "one (some MB each)"),

@@ -4,12 +4,13 @@ from pathlib import Path
 from typing import Any, List, Optional
 
 import typer
+from tehl_cli import usual_options as usual
 from tehl_cli.amount import AUTO, number, whole_or_auto
 from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import Live, say
 from tehl_cli.scene_options import GRIDS, changes_of, check_rows
 from tehl_cli.stdout import print_json, put
-from tehl_cli.timing import OPTION, print_budget, time_budget
+from tehl_cli.timing import print_budget, time_budget
 
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
@@ -29,18 +30,17 @@ def run(
     load: Optional[float] = number("load, N/m (line contact) or N (point contact)"),
     hertz_pressure: Optional[float] = number("Hertz pressure, Pa (instead of a load)"),
     speed: Optional[float] = number("mean surface speed u_m, m/s"),
-    temperature: Optional[float] = number("inlet temperature, deg C"),
-    oil: Optional[str] = typer.Option(None, help="name of the oil (`tehl oils`)"),
-    height: Optional[float] = number("feature height, m (negative: dent)"),
-    width: Optional[float] = number("feature width, m"),
+    temperature: usual.Temperature = None,
+    oil: usual.Oil = None,
+    height: usual.Height = None,
+    width: usual.FeatureWidth = None,
     set_: Optional[List[str]] = typer.Option(None, "--set", help="any scene value, dotted.key=value; repeatable"),
-    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes; NX alone if nothing varies "
-                                                  "along y)"),
+    grid: usual.Grid = None,
     target_error: Optional[str] = typer.Option(None, help="choose the grid for this relative error, for example 1% (see "
                                                           "`tehl bench accuracy`)"),
     steady: bool = typer.Option(False, "--steady", help="compute the steady contact only"),
-    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
-    fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
+    thermal: usual.Thermal = None,
+    fatigue: usual.Fatigue = None,
     zoom: Any = typer.Option(None, parser=whole_or_auto, metavar="2|4|8|16|auto",
                              help="add a fine window that moves with the feature, 2, 4, 8 or 16 times as fine as the grid; "
                                   "auto: no window if the grid suffices, otherwise the first factor that does"),
@@ -49,24 +49,18 @@ def run(
     estimate_error: Optional[bool] = typer.Option(None, "--estimate-error/--no-estimate-error",
                                                   help="estimate errors by coarse-grid runs (default: for all but very short "
                                                        "passages)"),
-    kappa: Optional[float] = typer.Option(None, help="sensitivity to normal stress kappa_F"),
-    endurance: Optional[float] = number("fatigue limit sigma_eF, Pa"),
-    bending_limit: Optional[float] = number("fatigue limit in reversed bending, Pa (replaces --endurance)"),
-    torsion_limit: Optional[float] = number("fatigue limit in reversed torsion, Pa (one limit fixes "
-                                            "sigma_eF; both limits also fix kappa)"),
+    kappa: usual.Kappa = None, endurance: usual.Endurance = None,
+    bending_limit: usual.BendingLimit = None, torsion_limit: usual.TorsionLimit = None,
     steps: Optional[int] = typer.Option(None, help="stop after this many time steps (0: steady start and an estimate of the "
                                                    "run time); `tehl resume` continues"),
     out: Optional[Path] = typer.Option(None, help="store to write (default: runs/SCENE-N.zarr)"),
     force: bool = typer.Option(False, "--force", help="replace an existing store once the new one has its first entry"),
-    dry_run: bool = typer.Option(False, "--dry-run", help="print what would run, and stop"),
+    dry_run: usual.DryRun = False,
     arch: Optional[str] = typer.Option(None, hidden=True),  # cpu; cuda is experimental, see TEHL_ARCH
-    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
+    threads: usual.Threads = None,
     precision: Optional[str] = typer.Option(None, help="precision of the linear solves: f32, f64 or auto (f32 for thick "
                                                        "films); the state and its residual are always double"),
-    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
-    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
-    curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal during the run"),
-    timing: bool = OPTION,
+    as_json: usual.AsJson = False, quiet: usual.Quiet = False, curves: usual.Curves = True, timing: usual.Timing = False,
 ):
     """Run one contact: steady start, passage of the feature, stresses, fatigue; write all results to a store.
 
@@ -115,11 +109,8 @@ def resume(
     store: Path = typer.Argument(..., help="store of an interrupted run, or of a run stopped with `--steps`"),
     steps: Optional[int] = typer.Option(None, min=1, help="number of further steps (default: to the end of the run; for a "
                                                           "finished run to the end of the passage)"),
-    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
-    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
-    curves: bool = typer.Option(True, "--live/--no-live", help="draw p, h and T along y = 0 in the terminal during the run"),
-    timing: bool = OPTION,
+    threads: usual.Threads = None,
+    as_json: usual.AsJson = False, quiet: usual.Quiet = False, curves: usual.Curves = True, timing: usual.Timing = False,
 ):
     """Resume an interrupted run, or extend a run stopped with `--steps`.
 
@@ -147,10 +138,8 @@ def zoom(
     factor: Any = typer.Option("4", parser=whole_or_auto, metavar="0|2|4|8|16|auto",
                                help="cells of the window in a cell of the grid: 2, 4, 8 or 16; 0 removes the window; auto: no "
                                     "window if the grid suffices, otherwise the first factor that does"),
-    threads: Optional[int] = typer.Option(None, help="CPU threads (default: all)"),
-    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout"),
-    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
-    timing: bool = OPTION,
+    threads: usual.Threads = None,
+    as_json: usual.AsJson = False, quiet: usual.Quiet = False, timing: usual.Timing = False,
 ):
     """Add a fine window that moves with the feature to a finished run; the steps of the run are kept.
 

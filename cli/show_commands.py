@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import Any, Optional
 
 import typer
+from tehl_cli import usual_options as usual
 from tehl_cli.amount import metres, number
-from tehl_cli.figure_options import Dpi, Force, Format, Width
 from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
@@ -203,7 +203,7 @@ def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the
          out: Path = typer.Option(None, help="folder for the figures (default: beside the store; for the others: "
                                              "inside it)"),
          quantity: str = typer.Option(None, help="study: column of its table to draw, such as judged_Fi"),
-         format: Format = "png", dpi: Dpi = 160, width: Width = 17.0, force: Force = False,
+         format: usual.Format = "png", dpi: usual.Dpi = 160, width: usual.Width = 17.0, force: usual.Force = False,
          at: Optional[float] = typer.Option(None, help="run: position of the (first) feature to draw, in half-widths a "
                                                        "(default: -0.8, 0, 0.8 for curves, 0 for maps)"),
          depth: Optional[float] = typer.Option(None, help="run: depth of a second fatigue map, µm below the surface, among "

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
+from tehl_cli import usual_options as usual
 from tehl_cli.live_display import say
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
@@ -26,24 +27,18 @@ def sweep(
     samples: Optional[int] = typer.Option(None, help="number of cases of a Latin hypercube, with --over key=low:high[:log] or "
                                                      "a,b,c"),
     seed: Optional[int] = typer.Option(None, help="seed of the samples (default: 0)"),
-    set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value in all cases, repeatable"),
-    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (cells or nodes; NX alone if nothing varies "
-                                                  "along y)"),
+    set_: usual.SetInAll = None, grid: usual.Grid = None,
     steady: bool = typer.Option(False, "--steady", help="compute steady contacts only"),
-    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with or without the energy equation"),
-    fatigue: Optional[bool] = typer.Option(None, "--fatigue/--no-fatigue", help="with or without stresses and fatigue index"),
+    thermal: usual.Thermal = None, fatigue: usual.Fatigue = None,
     steps: Optional[int] = typer.Option(None, help="stop every case after this many time steps"),
-    workers: Optional[int] = typer.Option(None, help="number of processes on this machine (default: one per core)"),
-    threads_per_worker: Optional[int] = typer.Option(None, help="CPU threads per case (default: 1, or the cores that "
-                                                                "--workers leaves)"),
+    workers: usual.Workers = None, threads_per_worker: usual.ThreadsPerWorker = None,
     scheduler: Optional[str] = typer.Option(None, help="address of a running Dask scheduler, for example tcp://10.0.0.1:8786"),
     keep: str = typer.Option("stores", help="stores (table and one store per case) or summary (table only)"),
     out: Optional[Path] = typer.Option(None, help="study to write or resume (default: runs/NAME.zarr, which depends on the "
                                                   "sweep only)"),
     yes: bool = typer.Option(False, "--yes", help=f"allow more than {MANY} cases"),
-    dry_run: bool = typer.Option(False, "--dry-run", help="print what would run, and stop"),
-    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
-    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+    dry_run: usual.DryRun = False,
+    as_json: usual.AsJson = False, quiet: usual.Quiet = False,
 ):
     """Run all combinations of scene values and collect the results in one table. Repeat the command to resume.
 
@@ -52,7 +47,6 @@ def sweep(
     """
     from tehl_cli.sweep_display import SweepLive, doubts
 
-    from tehl_taichi.errors import Interrupted, stopped
     from tehl_taichi.runs.sweep import sweeping
 
     options = {"time.steps": steps, "thermal.on": thermal, "fatigue.on": fatigue, "time.steady_only": steady or None}
@@ -67,12 +61,8 @@ def sweep(
     for sentence in (*doubts(plan), *plan.warnings()):
         say(f"warning: {sentence}")
     with SweepLive(quiet) as live:
-        try:
-            study = sweeping.run(plan, out, workers=workers, threads_per_worker=threads_per_worker, scheduler=scheduler,
-                                 keep=keep,
+        study = sweeping.run(plan, out, workers=workers, threads_per_worker=threads_per_worker, scheduler=scheduler, keep=keep,
                              progress=live, say_line=say)
-        except KeyboardInterrupt as stop:
-            raise Interrupted(f"{stopped(stop)} {live.left()}") from None
     _print(study, as_json)
     raise typer.Exit(0 if study.counts["converged"] == len(study) else 3)
 

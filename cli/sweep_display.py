@@ -10,6 +10,7 @@ from typing import Any
 from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
+from tehl_taichi.errors import Interrupted, stopped
 from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
 from tehl_taichi.values.digits import number_of, part_of
 from tehl_taichi.values.escape import typed
@@ -20,12 +21,14 @@ LAST, MOST_ROWS = 8, 60
 
 
 class SweepLive:
-    """Listener of a sweep: called with (study, record of the completed case, or None at the start)."""
+    """Listener of a sweep: called with (study, record of the completed case, or None at the start). As a context manager it
+    turns Ctrl-C into Interrupted; resume: how to resume then (default: as a sweep).
+    """
 
     EVERY = 5.0  # s between plain lines; failures are printed at once
 
-    def __init__(self, quiet=False):
-        self.quiet, self.ended, self.printed_at = quiet, 0, 0.0
+    def __init__(self, quiet=False, resume=""):
+        self.quiet, self.resume, self.ended, self.printed_at = quiet, resume, 0, 0.0
         self.first: float = 0.0  # when the first case ended
         self.rows: deque[dict] = deque(maxlen=LAST)
         self.live: Any = None
@@ -34,10 +37,12 @@ class SweepLive:
     def __enter__(self):
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, kind, error, _):
         if self.live:
             self.live.stop()
             self.live = None
+        if isinstance(error, KeyboardInterrupt):
+            raise Interrupted(f"{stopped(error)} {self._left()}") from None
 
     def __call__(self, study, record):
         self.study = study
@@ -92,12 +97,12 @@ class SweepLive:
         foot.add_row(ProgressBar(total=len(self.study), completed=done, width=30), self._headline())
         return Group(table, foot)
 
-    def left(self, resume=""):
-        """End of a sentence about a stopped sweep: completed cases, and how to resume (default: as a sweep)."""
+    def _left(self):
+        """End of a sentence about a stopped sweep: completed cases, and how to resume."""
         if self.study is None:
             return "before any result was stored"
         done, path = len(self.study) - len(self.study.open_cases), typed(self.study.path)
-        return f"after {part_of(done, len(self.study), 'case')}; {resume or f'resume with: tehl sweep {path}'}"
+        return f"after {part_of(done, len(self.study), 'case')}; {self.resume or f'resume with: tehl sweep {path}'}"
 
 
 def changes_words(record):

@@ -2,10 +2,6 @@
 
 import contextlib
 
-import typer
-
-OPTION = typer.Option(False, "--timing", help="print the time of each part of the command")
-
 
 @contextlib.contextmanager
 def time_budget(live):

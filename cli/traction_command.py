@@ -1,16 +1,15 @@
 """tehl traction: friction over slip, speed and temperature."""
 
 from pathlib import Path
-from typing import List, Optional
+from typing import Optional
 
 import typer
-from tehl_cli.figure_options import Dpi, FigureWidth, Format
+from tehl_cli import usual_options as usual
 from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import say
+from tehl_cli.missing_results import refuse_missing
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
-
-from tehl_taichi.values.digits import part_of
 
 LIST = "values a,b,c or low:high:N or low:high:N:log, units allowed: 0:50%:11"
 
@@ -26,22 +25,15 @@ def traction(
     srr: str = typer.Option("0:0.5:11", help=f"slide-roll ratios, {LIST}"),
     temperature: Optional[str] = typer.Option(None, help=f"inlet temperatures, deg C, {LIST} (default: that of the scene)"),
     speed: Optional[str] = typer.Option(None, help=f"mean speeds, m/s, {LIST}; with one --srr a Stribeck curve"),
-    oil: Optional[str] = typer.Option(None, help="name of the oil (`tehl oils`)"),
+    oil: usual.Oil = None,
     load: Optional[str] = typer.Option(None, help=f"loads, N (line: N/m), {LIST}"),
     hertz_pressure: Optional[str] = typer.Option(None, help=f"Hertz pressures instead of loads, Pa, {LIST}"),
-    thermal: Optional[bool] = typer.Option(None, "--thermal/--isothermal", help="with (default) or without energy equation"),
-    set_: Optional[List[str]] = typer.Option(None, "--set", help="dotted.key=value in all cases, repeatable"),
-    grid: Optional[str] = typer.Option(None, help="coarse, medium, fine or NXxNY (NX alone if nothing varies along y)"),
+    thermal: usual.UsuallyThermal = None, set_: usual.SetInAll = None, grid: usual.Grid = None,
     out: Optional[Path] = typer.Option(None, help="study to write or resume (default: runs/NAME-traction-ID.zarr)"),
     figure: bool = typer.Option(True, "--figure/--no-figure", help="draw traction.png (.pdf, .svg) beside the study"),
-    format: Format = "png",
-    dpi: Dpi = 160,
-    figure_width: FigureWidth = 17.0,
-    workers: Optional[int] = typer.Option(None, help="number of processes on this machine (default: one per core)"),
-    threads_per_worker: Optional[int] = typer.Option(None, help="CPU threads per case (default: 1, or the cores that "
-                                                                "--workers leaves)"),
-    as_json: bool = typer.Option(False, "--json", help="print one JSON object to stdout and all else to stderr"),
-    quiet: bool = typer.Option(False, "--quiet", help="print no progress"),
+    format: usual.Format = "png", dpi: usual.Dpi = 160, figure_width: usual.FigureWidth = 17.0,
+    workers: usual.Workers = None, threads_per_worker: usual.ThreadsPerWorker = None,
+    as_json: usual.AsJson = False, quiet: usual.Quiet = False,
 ):
     """Compute traction curves of a steady contact: friction, film and temperature over slip, for several inlet temperatures,
     loads or speeds. Repeat the command to resume.
@@ -51,7 +43,6 @@ def traction(
     """
     from tehl_cli.sweep_display import SweepLive, doubts
 
-    from tehl_taichi.errors import Interrupted, NotConverged, stopped
     from tehl_taichi.runs.traction.traction_run import computed, traction_plan
     from tehl_taichi.store.load_scene import find
     from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
@@ -65,17 +56,12 @@ def traction(
     plan = traction_plan(base, srr, temperature, speed, changes, load, hertz_pressure)
     for sentence in doubts(plan):
         say(f"warning: {sentence}")
-    with SweepLive(quiet) as live:
-        try:
-            found = computed(plan, out, workers=workers, threads_per_worker=threads_per_worker, progress=live)
-        except KeyboardInterrupt as stop:
-            raise Interrupted(f"{stopped(stop)} {live.left('repeat the command to resume')}") from None
+    with SweepLive(quiet, "repeat the command to resume") as live:
+        found = computed(plan, out, workers=workers, threads_per_worker=threads_per_worker, progress=live)
     if figure:
         say(str(found.plot(**vars(page))))
     print_json(found.to_dict()) if as_json else _print(found)
-    if found.failed:
-        raise NotConverged(f"{part_of(len(found.failed), len(found.study), 'case', 'has', 'have')} no result; the others are "
-                           f"in {found.study.path}. Try another --grid or --set with a new --out")
+    refuse_missing(found.failed, len(found.study), "case", found.study.path)
 
 
 def _print(found):

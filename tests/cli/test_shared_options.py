@@ -1,5 +1,10 @@
 """Options that several commands share are those of one function."""
 
+import ast
+from collections import Counter
+from pathlib import Path
+
+import tehl_cli
 import typer
 from tehl_cli.main import app
 from tehl_cli.shared_options import sharing
@@ -35,3 +40,12 @@ def test_balls_and_rollers_differ_in_their_dimensions_alone():
                       {"roller_diameter", "rollers", "length", "crown", "taper"})
     assert set(names("bearing")) - set(names("roller")) == balls and set(names("roller")) - set(names("bearing")) == rollers
     assert [name for name in names("bearing") if name not in balls] == [name for name in names("roller") if name not in rollers]
+
+
+def test_no_help_of_an_option_is_written_twice():
+    nodes = [node for file in Path(tehl_cli.__file__).parent.glob("*.py") for node in ast.walk(ast.parse(file.read_text()))]
+    calls = [node for node in nodes if isinstance(node, ast.Call) and "Argument" not in ast.unparse(node.func)]
+    written = [word.value.value for call in calls for word in call.keywords
+               if word.arg == "help" and isinstance(word.value, ast.Constant)]
+    assert len(written) > 80
+    assert [text for text, count in Counter(written).items() if count > 1] == []
