@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from tehl_taichi.runs.single_run import run_or_resume
+from tehl_taichi.runs.table_column import error_of, value_at
 from tehl_taichi.scene import scene
 from tehl_taichi.view.zoom_window import ZoomWindow
 
@@ -75,7 +76,7 @@ def run(folder, quick=False, threads=None, progress=None):
         middle = _moment(runs[0][0].store, 0.0)[1]
         found = [({**one.summary, "middle": {"h_min_m": _film_under(one.store, middle)}}, s) for one, s in runs]
         rows += [_row(name, number, *found) for number in NUMBERS
-                 if all(_value(summary, NUMBERS[number][0]) is not None for summary, _ in found[1:])]
+                 if all(value_at(summary, *NUMBERS[number][0]) is not None for summary, _ in found[1:])]
         yield rows
 
 
@@ -110,21 +111,14 @@ def _film_under(store, at):
 
 def _row(case, number, coarse, zoomed, fine):
     place, unit, si = NUMBERS[number]
-    values = [_in(si, _value(summary, place)) for summary, _ in (coarse, zoomed, fine)]
-    error = _value(zoomed[0], (*place[:-1], "error", place[-1]))
+    values = [_in(si, value_at(summary, *place)) for summary, _ in (coarse, zoomed, fine)]
+    error = error_of(zoomed[0], *place)
     return ZoomRow(case, number, unit, *values[:2], _in(si, error), values[2],
                    *(seconds for _, seconds in (coarse, zoomed, fine)))
 
 
 def _in(unit, value):
     return None if value is None else value / unit
-
-
-def _value(summary, place):
-    """The number at a place of a summary; None where the run has none."""
-    for key in place:
-        summary = (summary or {}).get(key)
-    return summary
 
 
 # columns of the table, and the numbers that they show

@@ -12,7 +12,7 @@ from tehl_taichi.report.verdict import limit_words, of_fatigue
 from tehl_taichi.runs.bearing import bearing_figure, bearing_table
 from tehl_taichi.runs.bearing.rolling_bearing import OF_BALLS, OF_ROLLERS, ROLLER, RollingBearing
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
-from tehl_taichi.runs.flank.flank_columns import error_of, value_at
+from tehl_taichi.runs.table_column import error_of, value_at
 from tehl_taichi.scene import scene_file
 from tehl_taichi.store.reader import Reader
 from tehl_taichi.values.digits import printed_unit

@@ -7,9 +7,10 @@ from tehl_taichi.report.number_text import sentence_case, unit_spelled
 from tehl_taichi.report.plots import colour, line, rings, stack
 from tehl_taichi.runs import place_warnings
 from tehl_taichi.runs.flank import specific_film
-from tehl_taichi.runs.flank.flank_columns import plotted_value, tables, value_at
+from tehl_taichi.runs.flank.flank_columns import plotted_value, tables
 from tehl_taichi.runs.flank.flank_figure import JUDGED, PANELS
 from tehl_taichi.runs.flank.stored_flank import Flank
+from tehl_taichi.runs.table_column import value_at
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.values.coded_text import without_options
 from tehl_taichi.values.digits import number_of, part_of, printed_unit

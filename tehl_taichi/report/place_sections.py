@@ -4,8 +4,8 @@ from tehl_taichi.report import fatigue_plots, map_plots, place_verdict, scene_te
 from tehl_taichi.report.document import PageBlock, Section, facts, figure_block
 from tehl_taichi.report.searches import searches
 from tehl_taichi.report.verdict import limit_words
-from tehl_taichi.runs.flank.flank_columns import value_at
 from tehl_taichi.runs.summary import limit_meaning
+from tehl_taichi.runs.table_column import value_at
 from tehl_taichi.store.attributes import text
 from tehl_taichi.view.figures.map_panels import is_turned
 

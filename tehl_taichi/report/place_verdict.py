@@ -8,7 +8,7 @@ from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.number_text import FEW, index, value_text
 from tehl_taichi.report.verdict import LATER, headline, state_and_index, with_load
-from tehl_taichi.runs.flank.flank_columns import error_of as error_in
+from tehl_taichi.runs.table_column import error_of as error_in
 from tehl_taichi.values.digits import micrometres, part_of
 
 UNKNOWN_LATER = "Probably not: the index stays below 1, but over the whole passage its error is unknown."

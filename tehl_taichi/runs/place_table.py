@@ -177,7 +177,7 @@ def _of_entry(entry):
 
 
 def _of_ring_row(row):
-    label, _, unit = row.label.partition(", ")
+    label, _, unit = row.head.partition(", ")
     return PlaceQuantity(label, unit, row.factor, row.form, row.barred)
 
 

@@ -194,7 +194,7 @@ def test_the_bar_of_a_run_counts_steps_and_names_what_comes_later(monkeypatch):
 
 
 def test_a_column_of_a_flank_shows_numbers_in_its_unit_words_as_they_are_and_nothing_for_nothing():
-    from tehl_taichi.runs.flank.flank_columns import TableColumn
+    from tehl_taichi.runs.table_column import TableColumn
 
     column = TableColumn("h_c", "h_c um", 1e6, ".3f", lambda value: value, "")
     assert [column.shown(value) for value in (2.5e-6, "at C", "", None, 0.0)] == ["2.500", "at C", "", "", "0.000"]

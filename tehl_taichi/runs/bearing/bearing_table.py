@@ -1,43 +1,11 @@
 """Numbers of both rings, one row each, for the table on the screen, the page and the CSV file."""
 
-import csv
-import io
 import math
-from dataclasses import dataclass
-from typing import Callable
 
-from tehl_taichi.runs import place_warnings
+from tehl_taichi.runs import place_warnings, table_column
 from tehl_taichi.runs.bearing.ring_contacts import RINGS
-from tehl_taichi.runs.flank.flank_columns import PASSAGE, error_of, judged_index, title_of, value_at
-from tehl_taichi.values.digits import with_error
-from tehl_taichi.values.escape import cell
-
-
-@dataclass(frozen=True)
-class RingRow:
-    """Row of the table. name: with its SI unit, for the CSV file; label, factor, form: of the printed table `part`; value:
-    function of (record of the bearing, record of the ring), gives None without a value; error: likewise.
-    """
-
-    part: str
-    name: str
-    label: str
-    factor: float
-    form: str
-    value: Callable
-    error: Callable = lambda bearing, ring: None
-
-    def shown(self, bearing, ring):
-        value, error = self.value(bearing, ring), self.error(bearing, ring)
-        if value is None or isinstance(value, str):
-            return value or ""
-        value *= self.factor
-        return format(value, self.form) if error is None else with_error(value, error * self.factor)
-
-    @property
-    def barred(self):
-        """Whether its value has an error bar (which may be unknown)."""
-        return self.error is not RingRow.error
+from tehl_taichi.runs.flank.flank_columns import PASSAGE, judged_index, title_of
+from tehl_taichi.runs.table_column import TableColumn, error_of, value_at
 
 
 def of_ring(*keys):
@@ -47,8 +15,8 @@ def of_ring(*keys):
 
 def _result(part, name, label, factor, form, *keys):
     """Row of a number in the summary of a ring, with its error bar."""
-    return RingRow(part, name, label, factor, form, of_ring("summary", *keys),
-                   lambda bearing, ring: error_of(ring["summary"], *keys))
+    return TableColumn(name, label, factor, form, of_ring("summary", *keys), part,
+                       lambda bearing, ring: error_of(ring["summary"], *keys))
 
 
 def film_ratio(bearing, ring):
@@ -87,35 +55,35 @@ def slip_torque(bearing):
 
 CONTACT, MOTION, FILM, _ = PARTS = ("contact", "motion", "film", PASSAGE)
 ROWS = (
-    RingRow(CONTACT, "contact", "contact", 1, "", of_ring("contact")),
-    RingRow(CONTACT, "load_N", "load, N", 1, ".1f", of_ring("load_N")),
-    RingRow(CONTACT, "R_x_m", "R_x, mm", 1e3, ".4g", of_ring("R_x_m")),
-    RingRow(CONTACT, "R_y_m", "R_y, mm", 1e3, ".4g", of_ring("R_y_m")),
-    RingRow(CONTACT, "a_m", "half-axis a along rolling, mm", 1e3, ".4g", of_ring("a_m")),
-    RingRow(CONTACT, "b_m", "half-axis b across, mm", 1e3, ".4g", of_ring("b_m")),
-    RingRow(CONTACT, "p_Hertz_Pa", "Hertz pressure, GPa", 1e-9, ".3f", of_ring("p_Hertz_Pa")),
-    RingRow(CONTACT, "static_safety", "static safety (ISO 76)", 1, ".2f", of_ring("static_safety")),
-    RingRow(MOTION, "u_m_m_s", "entrainment speed, m/s", 1, ".3f", of_ring("u_m_m_s")),
-    RingRow(MOTION, "srr_centre", "SRR at the centre", 1, ".3g", of_ring("slip", "srr_centre")),
-    RingRow(MOTION, "srr_edge", "SRR at the end of the ellipse", 1, ".3g", of_ring("slip", "srr_edge")),
-    RingRow(MOTION, "srr", "SRR of the run", 1, ".3g", of_ring("slip", "srr")),
-    RingRow(MOTION, "slip_mean_m_s", "mean slip, m/s", 1, ".4f", of_ring("slip", "mean_m_s")),
-    RingRow(MOTION, "spin_rad_s", "spin, rad/s", 1, ".1f", lambda bearing, ring: ring["spin_rad_s"] or None),
-    RingRow(MOTION, "passes_per_s", "passes of elements per second", 1, ".2f", of_ring("passes_per_s")),
-    RingRow(FILM, "film_formula_m", "h_c by formula, um", 1e6, ".3f", of_ring("film_formula_m")),
+    TableColumn("contact", "contact", 1, "", of_ring("contact"), CONTACT),
+    TableColumn("load_N", "load, N", 1, ".1f", of_ring("load_N"), CONTACT),
+    TableColumn("R_x_m", "R_x, mm", 1e3, ".4g", of_ring("R_x_m"), CONTACT),
+    TableColumn("R_y_m", "R_y, mm", 1e3, ".4g", of_ring("R_y_m"), CONTACT),
+    TableColumn("a_m", "half-axis a along rolling, mm", 1e3, ".4g", of_ring("a_m"), CONTACT),
+    TableColumn("b_m", "half-axis b across, mm", 1e3, ".4g", of_ring("b_m"), CONTACT),
+    TableColumn("p_Hertz_Pa", "Hertz pressure, GPa", 1e-9, ".3f", of_ring("p_Hertz_Pa"), CONTACT),
+    TableColumn("static_safety", "static safety (ISO 76)", 1, ".2f", of_ring("static_safety"), CONTACT),
+    TableColumn("u_m_m_s", "entrainment speed, m/s", 1, ".3f", of_ring("u_m_m_s"), MOTION),
+    TableColumn("srr_centre", "SRR at the centre", 1, ".3g", of_ring("slip", "srr_centre"), MOTION),
+    TableColumn("srr_edge", "SRR at the end of the ellipse", 1, ".3g", of_ring("slip", "srr_edge"), MOTION),
+    TableColumn("srr", "SRR of the run", 1, ".3g", of_ring("slip", "srr"), MOTION),
+    TableColumn("slip_mean_m_s", "mean slip, m/s", 1, ".4f", of_ring("slip", "mean_m_s"), MOTION),
+    TableColumn("spin_rad_s", "spin, rad/s", 1, ".1f", lambda bearing, ring: ring["spin_rad_s"] or None, MOTION),
+    TableColumn("passes_per_s", "passes of elements per second", 1, ".2f", of_ring("passes_per_s"), MOTION),
+    TableColumn("film_formula_m", "h_c by formula, um", 1e6, ".3f", of_ring("film_formula_m"), FILM),
     _result(FILM, "h_c_m", "h_c, um", 1e6, ".3f", "steady", "h_c_m"),
     _result(FILM, "h_min_m", "h_min, um", 1e6, ".3f", "steady", "h_min_m"),
-    RingRow(FILM, "lambda", "lambda = h_c/Sq", 1, ".2f", film_ratio),
-    RingRow(FILM, "friction_coefficient", "friction coefficient at the SRR of the run", 1, ".4f", sliding_friction,
-            lambda bearing, ring: error_of(ring["summary"], "steady", "friction_coefficient")),
-    RingRow(FILM, "sliding_loss_W", "sliding loss of the most loaded contact, W", 1, ".3g", sliding_loss),
+    TableColumn("lambda", "lambda = h_c/Sq", 1, ".2f", film_ratio, FILM),
+    TableColumn("friction_coefficient", "friction coefficient at the SRR of the run", 1, ".4f", sliding_friction, FILM,
+                lambda bearing, ring: error_of(ring["summary"], "steady", "friction_coefficient")),
+    TableColumn("sliding_loss_W", "sliding loss of the most loaded contact, W", 1, ".3g", sliding_loss, FILM),
     _result(FILM, "film_max_C", "film temperature, deg C", 1, ".1f", "steady", "film_max_C"),
     _result(PASSAGE, "passage_p_max_Pa", "largest pressure, GPa", 1e-9, ".3f", "transient", "p_max_Pa"),
     _result(PASSAGE, "passage_h_min_m", "smallest film, um", 1e6, ".3g", "transient", "h_min_m"),
     _result(PASSAGE, "Fi_max", "Fi at the surface", 1, ".3f", "fatigue", "Fi_max"),
     _result(PASSAGE, "Fi_max_below", "Fi below the surface", 1, ".3f", "fatigue", "below", "Fi_max"),
-    RingRow(PASSAGE, "Fi_judged", "Fi judged", 1, ".3f", lambda bearing, ring: judged_index(ring["summary"])[0],
-            lambda bearing, ring: judged_index(ring["summary"])[1]),
+    TableColumn("Fi_judged", "Fi judged", 1, ".3f", lambda bearing, ring: judged_index(ring["summary"])[0], PASSAGE,
+                lambda bearing, ring: judged_index(ring["summary"])[1]),
     _result(PASSAGE, "von_mises_max_Pa", "largest von Mises stress, GPa", 1e-9, ".3f", "von_mises", "max_Pa"),
     _result(PASSAGE, "passages", "passages to initiation", 1, ".2g", "life", "passages"),
     _result(PASSAGE, "hours", "hours to initiation", 1, ".2g", "life", "hours"))
@@ -125,8 +93,8 @@ def tables(bearing):
     """{title: rows of (label, inner, outer)} of the parts with values; bearing: a Bearing."""
     out = {}
     for part in PARTS:
-        found = [(row.label, *(row.shown(bearing.record, ring) for ring in bearing.rings.values()))
-                 for row in ROWS if row.part == part and _has(row, bearing)]
+        found = [(row.head, *(row.shown(bearing.record, ring) for ring in bearing.rings.values()))
+                 for row in ROWS if row.table == part and _has(row, bearing)]
         if found:
             out[title_of(part, [bearing.record[ring]["summary"] for ring in RINGS])] = found
     return out
@@ -183,13 +151,6 @@ def warnings(bearing):
 
 def csv_text(bearing):
     """Table as CSV in SI units: a line per ring, error bars in separate columns."""
-    rows = [row for row in ROWS if _has(row, bearing)]
-    barred = [row for row in rows if any(row.error(bearing.record, ring) is not None for ring in bearing.rings.values())]
-    text = io.StringIO()
-    out = csv.writer(text)
-    out.writerow(map(cell, ["ring", *(row.name for row in rows), *(f"error_{row.name}" for row in barred)]))
-    for name in RINGS:
-        ring = bearing.rings[name]
-        out.writerow(map(cell, [name, *(row.value(bearing.record, ring) for row in rows),
-                                *(row.error(bearing.record, ring) for row in barred)]))
-    return text.getvalue()
+    places = [(bearing.record, bearing.rings[ring]) for ring in RINGS]
+    lines = table_column.csv_lines([row for row in ROWS if _has(row, bearing)], places)
+    return table_column.csv_text([first, *line] for first, line in zip(["ring", *RINGS], lines))

@@ -1,7 +1,8 @@
 """Table columns of a cam: contact at each angle, and results as along a flank."""
 
 from tehl_taichi.runs.flank import flank_columns
-from tehl_taichi.runs.flank.flank_columns import CONTACT, TableColumn
+from tehl_taichi.runs.flank.flank_columns import CONTACT
+from tehl_taichi.runs.table_column import TableColumn
 
 COLUMNS = (
     TableColumn("angle_deg", "angle deg", 1, ".2f", lambda at, *_: at.angle, CONTACT),

@@ -4,7 +4,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tehl_taichi.runs.flank.flank_columns import error_of, value_at
+from tehl_taichi.runs.table_column import error_of, value_at
 from tehl_taichi.values.coded_warning import counted
 from tehl_taichi.values.digits import number_of, part_of, printed_unit
 
