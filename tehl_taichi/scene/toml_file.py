@@ -5,18 +5,26 @@ import tomllib
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
-from tehl_taichi.values.checks import near_file
+from tehl_taichi.values.checks import near_file, nearest
 from tehl_taichi.values.coerce import shown
 
 COMMA = re.compile(r"\s*[\w.\"'-]+\s*=\s*([-+]?\d+),(\d+(?:[eE][-+]?\d+)?)\s*(?:#.*)?")  # key = -0,2
 LINE = re.compile(r"\(at line (\d+), ")
 
 
-def read(path, what):
-    """Nested dictionary of a TOML file; what: "scene", for messages.
+def read(path, what, known=None):
+    """Nested dictionary of a TOML file; what: "scene", for messages; known: its keys (None: not checked here).
 
-    Raises SceneError if it cannot be read or is no TOML; the message points out a decimal comma.
+    Raises SceneError if it cannot be read, is no TOML or has an unknown key; the message points out a decimal comma.
     """
+    data = _read(path, what)
+    for key in data if known else ():
+        if key not in known:
+            raise SceneError(f"unknown key {shown(key)} in {path}{nearest(key, known)}; known: {', '.join(known)}")
+    return data
+
+
+def _read(path, what):
     try:
         text = files.text(path)
         return tomllib.loads(text)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from tehl_taichi.scene import BUILT_INS, Scene, SceneError
 from tehl_taichi.scene.builtin import scene as built_in
+from tehl_taichi.values.checks import text
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.file_ending import ending
 
@@ -26,6 +27,16 @@ def find_changed(name, changes):
         return scene_file.load(name, changes)
     found = name if isinstance(name, Scene) else _stored(Path(name)) or built_in(str(name))
     return found.replace(**changes) if changes else found
+
+
+def named_in(file, data):
+    """Name of the scene that a file of these keys names: a built-in one, or a scene file or store beside it; default: as for
+    :func:`find`. Raises SceneError.
+    """
+    name = data.get("scene", "gear")
+    text("scene", name)
+    beside = Path(file).parent / name
+    return str(beside) if name not in BUILT_INS and (ending(name) == ".toml" or beside.exists()) else name
 
 
 def _is_file(path):

@@ -198,11 +198,11 @@ def test_thick_films_are_solved_in_single_precision():
 def test_contacts_of_machines_are_those_of_their_commands():
     """Inner rings of the 6206 under 3 kN and of the 209 roller bearing under 4.45 kN at 3000 1/min; rigs at 1 GPa."""
     from tehl_taichi.runs.bearing.bearing_run import solve_mechanics
-    from tehl_taichi.runs.bearing.bearing_source import bearing_source, default_scene
+    from tehl_taichi.runs.bearing.bearing_source import bearing_source
     from tehl_taichi.runs.bearing.ring_scenes import base_of
 
     for name, which, load in (("ball-bearing", "6206", 3000.0), ("roller-bearing", "209-roller", 4450.0)):
-        _, _, rings = solve_mechanics(bearing_source(which, {"load": load, "speed": 3000.0}), base_of(default_scene()), {}, "")
+        _, _, rings = solve_mechanics(bearing_source(which, {"load": load, "speed": 3000.0}), base_of(scene()), {}, "")
         found, own = rings["inner"].scene, scene(name)
         assert (own.contact.radius_x, own.load, own.operation.u_m, own.operation.srr) == pytest.approx(
             (found.contact.radius_x, found.load, found.operation.u_m, found.operation.srr), rel=5e-3)

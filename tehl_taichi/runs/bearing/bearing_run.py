@@ -11,7 +11,7 @@ from tehl_taichi.disk import files
 from tehl_taichi.errors import Error, StoreError
 from tehl_taichi.runs import place_warnings
 from tehl_taichi.runs.bearing import ellipse_slip, kinematics, load_distribution, ring_contacts, ring_scenes, stiffness
-from tehl_taichi.runs.bearing.bearing_source import bearing_source, default_scene
+from tehl_taichi.runs.bearing.bearing_source import bearing_source
 from tehl_taichi.runs.bearing.dry_contact import dry_contact
 from tehl_taichi.runs.bearing.ring_contacts import RINGS
 from tehl_taichi.runs.bearing.rolling_bearing import RollingBearing
@@ -62,7 +62,7 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
         roughness = in_unit("roughness", roughness, "m")
         number("roughness", roughness, "m", 1e-10, 1e-4, usual=1e-7)
     found = bearing_source(what, {**(dimensions or {}), "load": load, "axial": axial, "speed": speed})
-    start = find(scene) if scene is not None else found.scene or default_scene()
+    start = find(scene) if scene is not None else found.scene or find()
     base = ring_scenes.base_of(start, feature)
     changes = all_changes(changes or {}, steady)
     ring_scenes.check_free(changes)

@@ -6,16 +6,16 @@ from dataclasses import dataclass
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.bearing.designations import GROOVES, designation, key_of, of_element
 from tehl_taichi.runs.bearing.rolling_bearing import BALL, ROLLER, RollingBearing
-from tehl_taichi.scene import scene, toml_file
+from tehl_taichi.scene import toml_file
 from tehl_taichi.scene.description import Scene
+from tehl_taichi.store.load_scene import find, named_in
 from tehl_taichi.values.checks import build, file_name, nearest, text
-from tehl_taichi.values.coerce import plain, shown
+from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.file_ending import ending
 from tehl_taichi.values.path_arguments import path_of
 from tehl_taichi.values.quantity import kinds
 
 KEYS = ("name", "base", "bearing", "scene")  # of a file
-SCENE = "gear"  # built-in scene that gives oil, bodies and numerics where none is named
 DUTY = ("clearance", "load", "axial", "speed", "outer_speed")  # no dimensions
 COMMANDS = {BALL: "bearing", ROLLER: "roller"}
 OWN = ("diameter", "count", "pitch_diameter")  # a bearing that brings these needs no designation
@@ -109,10 +109,7 @@ def _from_file(path, given):
     """Read a bearing file. Its keys: name; bearing (a table, with `base` a designation for missing values); scene (a built-in
     one or a file beside this one).
     """
-    data = toml_file.read(path, "bearing")
-    for key in data:
-        if key not in KEYS:
-            raise SceneError(f"unknown key {shown(key)} in {path}{nearest(key, KEYS)}; known: {', '.join(KEYS)}")
+    data = toml_file.read(path, "bearing", KEYS)
     own = data.get("bearing", {})
     if not isinstance(own, dict) or not (own or "base" in data):
         raise SceneError(f"{path} needs a table [bearing], or base = a designation")
@@ -128,18 +125,4 @@ def _from_file(path, given):
     source = f"{path} on {data['base']}: {_source(found, _changed(base, {**own, **given}, made))}" if found else str(path)
     return BearingSource(data.get("name", path.stem), made, source, _not_given(estimated, {**own, **given}),
                          _changed({**base, **own}, given, made),
-                         _scene_beside(path, data["scene"]) if "scene" in data else None)
-
-
-def _scene_beside(path, named):
-    """Scene that a bearing file names: a built-in one, or a file beside it."""
-    from tehl_taichi.store.load_scene import find
-
-    text("scene", named)
-    beside = path.parent / named
-    return find(str(beside) if beside.is_file() else named)
-
-
-def default_scene():
-    """Default scene for oil, bodies and numerics."""
-    return scene(SCENE)
+                         find(named_in(path, data)) if "scene" in data else None)

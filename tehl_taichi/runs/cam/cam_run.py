@@ -13,7 +13,6 @@ from tehl_taichi.runs.flank.line_contacts import scene_at, scene_with_grid_at
 from tehl_taichi.runs.flank.outcomes import computed
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.scene import Scene, grid_for_features, idle_keys
-from tehl_taichi.scene import scene as built_in
 from tehl_taichi.scene.feature import USED_BY, Feature
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.store.json_values import plain
@@ -22,7 +21,6 @@ from tehl_taichi.values.path_arguments import path_of
 
 ASSUMPTION = ("each angle is a separate contact with constant load and speeds: squeezing of the film over the cycle is not "
               "computed")
-SCENE = "gear"  # built-in scene that gives oil, bodies and numerics where none is named
 WAITING = "it has not run yet; repeat the tehl cam command with --out to resume"
 
 
@@ -33,7 +31,7 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     path = path_of("table", table)
     places = cam_table.load(path)
     further_columns.check(path, places, stored_cam.KEYS, cam_columns.COLUMNS)
-    start = find(scene) if scene is not None else smooth(built_in(SCENE))
+    start = find(scene) if scene is not None else smooth(find())
     base = base_of(start, feature)
     changes = all_changes(changes or {}, steady)
     steady = not base.features or changes.get("time.steady_only", False)

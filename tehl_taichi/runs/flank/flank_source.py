@@ -9,14 +9,14 @@ from tehl_taichi.runs.flank.mesh import Mesh
 from tehl_taichi.scene import scene, toml_file
 from tehl_taichi.scene.description import Scene
 from tehl_taichi.scene.gear_pair import PAIRS, GearPair, gear_pair
-from tehl_taichi.values.checks import build, file_name, nearest
+from tehl_taichi.store.load_scene import find, named_in
+from tehl_taichi.values.checks import build, file_name, text
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.file_ending import ending
 from tehl_taichi.values.path_arguments import path_of
 
 KEYS = ("name", "base", "gear", "table", "scene")
 DEFAULT = 11  # positions
-SCENE = "gear"  # built-in scene that gives oil, bodies, feature and numerics where none is named
 
 
 @dataclass(frozen=True)
@@ -62,15 +62,15 @@ class FlankSource:
 def flank_source(what):
     """The FlankSource for a name, a path or a GearPair. Raises SceneError."""
     if isinstance(what, GearPair):
-        return FlankSource("flank", scene(SCENE), what)
+        return FlankSource("flank", scene(), what)
     if isinstance(what, str) and what in PAIRS:
-        return FlankSource(what, scene(SCENE), gear_pair(what), source=PAIRS[what][1])
+        return FlankSource(what, scene(), gear_pair(what), source=PAIRS[what][1])
     path = path_of("gear", what)
     if ending(path) == ".csv":
-        return FlankSource(path.stem, scene(SCENE), table=_rows(path), source=str(what))
+        return FlankSource(path.stem, scene(), table=_rows(path), source=str(what))
     if ending(path) == ".toml" or path.exists():
         return _from_file(path)
-    return FlankSource(str(what), scene(SCENE), gear_pair(str(what)))
+    return FlankSource(str(what), scene(), gear_pair(str(what)))
 
 
 def _rows(path):
@@ -84,26 +84,14 @@ def _from_file(path):
     """Read a flank file. Its keys: name; gear (a table, with `base` a built-in pair for missing values) or table (a CSV file);
     scene (a built-in one or a scene file); paths relative to this file.
     """
-    from tehl_taichi.store.load_scene import find
-
-    data = toml_file.read(path, "flank")
-    for key in data:
-        if key not in KEYS:
-            raise SceneError(f"unknown key {shown(key)} in {path}{nearest(key, KEYS)}; known: {', '.join(KEYS)}")
+    data = toml_file.read(path, "flank", KEYS)
     if ("table" in data) == bool({"gear", "base"} & data.keys()):
         raise SceneError(f"{path} needs either a gear pair ([gear], base) or a table = \"file.csv\"")
-    named = _text(data, "scene", SCENE)
-    beside = path.parent / named
-    given = dict(name=data.get("name", path.stem), scene=find(str(beside) if beside.is_file() else named), source=str(path))
+    for key in {"table", "base"} & data.keys():
+        text(key, data[key])
+    given = dict(name=data.get("name", path.stem), scene=find(named_in(path, data)), source=str(path))
     if "table" in data:
-        return FlankSource(**given, table=_rows(path.parent / _text(data, "table")))
-    base = dataclasses.asdict(gear_pair(_text(data, "base"))) if "base" in data else {}
+        return FlankSource(**given, table=_rows(path.parent / data["table"]))
+    base = dataclasses.asdict(gear_pair(data["base"])) if "base" in data else {}
     gear = data.get("gear", {})
     return FlankSource(**given, pair=build(GearPair, {**base, **gear} if isinstance(gear, dict) else gear, "gear"))
-
-
-def _text(data, key, default=""):
-    value = data.get(key, default)
-    if not isinstance(value, str):
-        raise SceneError(f"{key} = {shown(value)} must be text")
-    return value

@@ -7,10 +7,9 @@ from typing import Any
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.sweep.plan import plan
-from tehl_taichi.scene import BUILT_INS, toml_file
+from tehl_taichi.scene import toml_file
 from tehl_taichi.scene.aliases import check_swept
-from tehl_taichi.store.load_scene import find_changed
-from tehl_taichi.values.checks import nearest
+from tehl_taichi.store.load_scene import find_changed, named_in
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.file_ending import ending
 
@@ -35,10 +34,7 @@ def load(path):
     all cases; dotted keys may be quoted or not. scene: a built-in one, or a scene file beside this one.
     """
     path = Path(path)
-    data = toml_file.read(path, "study")
-    for key in data:
-        if key not in KNOWN:
-            raise SceneError(f"unknown key {shown(key)} in {path}{nearest(key, KNOWN)}; known: {', '.join(KNOWN)}")
+    data = toml_file.read(path, "study", KNOWN)
     toml_file.check_brackets(path, data, one=("set", "over"), several=("together",))
     over: dict[Any, Any] = dict(_columns(data.get("over", {})))
     for group in data.get("together", []):
@@ -48,7 +44,7 @@ def load(path):
         over[tuple(columns)] = _rows(columns)
     changes = _flat(data.get("set", {}))
     check_swept(changes, [key for keys in over for key in ((keys,) if isinstance(keys, str) else keys)])
-    scene = find_changed(_scene_name(data.get("scene", "gear"), path.parent), changes)
+    scene = find_changed(named_in(path, data), changes)
     return plan(scene, over, data.get("samples"), data.get("seed"))
 
 
@@ -80,9 +76,3 @@ def _rows(columns):
 
     return [list(row) for row in axis_syntax.axis(list(columns),
                                                   [axis_syntax.column(found) for found in columns.values()]).rows]
-
-
-def _scene_name(name, folder):
-    if not isinstance(name, str):
-        raise SceneError(f"scene = {shown(name)} must be the name of a built-in scene or of a scene file")
-    return name if name in BUILT_INS else str(folder / name) if ending(name) == ".toml" else name
