@@ -6,7 +6,7 @@ import uuid
 from typing import Any
 
 from tehl_taichi.errors import RuntimeUnavailable, StoreError, brief, extra
-from tehl_taichi.runs.sweep.job import LostJob, in_one_thread
+from tehl_taichi.runs.sweep.job import DIED, LostJob, failed, in_one_thread
 
 AHEAD, LEAST = 3, 16  # jobs that the scheduler knows, for each worker and at least: memory stays bounded, no worker waits
 PATIENCE = 30  # s to find a scheduler
@@ -57,9 +57,7 @@ def _answer(future):
     if future.status != "error":
         return LostJob("the scheduler lost this case (it was restarted or stopped)")
     error = future.exception()
-    if type(error).__name__ == "KilledWorker":
-        return LostJob("its worker died, also at the second attempt (killed, or out of memory)")
-    return LostJob(f"{type(error).__name__}: {error}")
+    return DIED if type(error).__name__ == "KilledWorker" else failed(error)
 
 
 @contextlib.contextmanager

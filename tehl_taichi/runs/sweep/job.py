@@ -12,6 +12,14 @@ class LostJob:
     reason: str
 
 
+DIED = LostJob("its worker died, also at the second attempt (killed, or out of memory)")
+
+
+def failed(error):
+    """The LostJob of a job that raised an error."""
+    return LostJob(f"{type(error).__name__}: {error}")
+
+
 _lane: list[ThreadPoolExecutor] = []
 _guard = threading.Lock()
 

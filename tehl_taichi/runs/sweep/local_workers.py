@@ -16,13 +16,12 @@ from typing import Any
 from tehl_taichi.disk import memory_limit
 from tehl_taichi.engine import runtime
 from tehl_taichi.errors import RuntimeUnavailable
-from tehl_taichi.runs.sweep.job import LostJob, in_one_thread
+from tehl_taichi.runs.sweep.job import DIED, failed, in_one_thread
 
 SHARE = 0.95  # of the part of a worker in the memory that is available
 PAUSE = 1.0  # s between two looks at that
 TRIES = 2
 READY = "ready"  # first message of a worker, which has imported what it needs
-DIED = "its worker died, also at the second attempt (killed, or out of memory)"
 GUARD = 'imports the script that started it, whose calls belong below `if __name__ == "__main__":`; or use --workers 1'
 COMPUTES, FAILS = f"workers cannot start: each {GUARD}", f"a worker cannot start, for the reason above; it {GUARD}"
 
@@ -70,7 +69,7 @@ class LocalWorkers:
         if worker.tries < TRIES:
             self._give(Worker(), work, number, job, worker.tries + 1)
             return None
-        return number, LostJob(DIED)
+        return number, DIED
 
     def _hand_out(self, work, waiting):
         while len(self.busy) < self.count and (job := next(waiting, None)):
@@ -177,7 +176,7 @@ def _done(work, job):
     try:
         return in_one_thread(work, job)
     except Exception as error:  # noqa: BLE001  whatever it is, the other jobs continue
-        return LostJob(f"{type(error).__name__}: {error}")
+        return failed(error)
 
 
 def _end_with_the_sweep():
