@@ -109,7 +109,7 @@ class _Look:
 
     def _seen(self, layer, t, operators):
         passage, depth = self.passage, self.depths[layer]
-        stress = passage.under(passage._stress_field(int(passage.entries[t]), self.rows, *operators), t)
+        stress = passage.under(passage.stress_field(int(passage.entries[t]), self.rows, *operators), t)
         for component, value in zip(stress, passage.strength.residual(depth)):
             component += value
         stress = np.moveaxis(stress, 0, -1)

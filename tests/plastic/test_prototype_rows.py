@@ -35,7 +35,7 @@ def test_the_elastic_stress_is_that_of_the_prototype(passage):
 
 
 def _mises(found, t, rows, operators):
-    stress = found.under(found._stress_field(int(found.entries[t]), rows, *operators), t)
+    stress = found.under(found.stress_field(int(found.entries[t]), rows, *operators), t)
     return float(von_mises(np.moveaxis(stress, 0, -1)).max())
 
 

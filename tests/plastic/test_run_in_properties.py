@@ -64,7 +64,7 @@ def test_cells_that_residual_stress_brings_near_yielding_are_followed():
     for layer, depth in enumerate(cells.layers.depths):
         operators = passage.stresses(depth)
         for moment, seen in look.at(layer, look.times[middle : middle + 2]).items():
-            field = passage._stress_field(int(passage.entries[moment]), look.rows, *operators)
+            field = passage.stress_field(int(passage.entries[moment]), look.rows, *operators)
             stress = np.moveaxis(np.array(passage.under(field, moment)), 0, -1)
             followed = np.zeros(stress.shape[:-1], bool)
             followed[seen.places[1], seen.places[2]] = True

@@ -230,7 +230,7 @@ class StressHistories:
         this depth. notify, meanwhile: as for :meth:`gathered`.
         """
         def stresses(block):
-            return (self._stress_field(int(entry), rows, *operators) for entry in block)
+            return (self.stress_field(int(entry), rows, *operators) for entry in block)
 
         out = self.gathered((rows.stop - rows.start,), stresses, notify, meanwhile)
         first = self.rows.start
@@ -333,7 +333,7 @@ class StressHistories:
             load[...] = fields[name]
         return out
 
-    def _stress_field(self, entry, rows, stress, thermal):
+    def stress_field(self, entry, rows, stress, thermal):
         """Stresses (columns, rows, 6) Pa of an entry."""
         found = stress(*self.loads(entry))
         if thermal:

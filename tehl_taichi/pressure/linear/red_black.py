@@ -14,18 +14,6 @@ SWEEP = "red-black"  # choice of numerics.sweep
 RED, BLACK, SPREAD, BENT, LEFT, ADDED = range(18, 24)  # operations, beside those of :mod:`schedule`
 
 
-def second_colour(program, collect, on, decision):
-    """Add the phases of the second colour to a program.
-
-    collect: operation that gathers corrections; on, decision: decisions between the phases, and after the last one.
-    """
-    program._deflected(SPREAD, on, BENT, LEFT)
-    program._phase(program._pairs(BLACK, 1))
-    program._phase(program._groups(1))
-    program._phase(program._pairs(collect, 1))
-    program._fine(ADDED, decision)
-
-
 @ti.func
 def keep_colour(F: ti.template(), first, n2, operation):
     """Set SOL to 0 in the rows of the other colour (every second row)."""

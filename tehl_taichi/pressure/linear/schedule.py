@@ -94,8 +94,16 @@ class Program:
             self._phase(self._blocks(PROLONG, l))
         self._phase(self._blocks(FINEST, 0, len(sizes) - 1), ON if self.colours else decision)
         if self.colours:
-            red_black.second_colour(self, COLLECT, ON, decision)
+            self._second_colour(decision)
         return first
+
+    def _second_colour(self, decision):
+        """Add the lines of the second colour of the finest level, for the residual that the first colour leaves."""
+        self._deflected(red_black.SPREAD, ON, red_black.BENT, red_black.LEFT)
+        self._phase(self._pairs(red_black.BLACK, 1))
+        self._phase(self._groups(1))
+        self._phase(self._pairs(COLLECT, 1))
+        self._fine(red_black.ADDED, decision)
 
     def _deflected(self, source, decision, back=BACK, rows=ROWS):
         """Add the product of the Jacobian with the change of pressure of `source`; return the first phase."""

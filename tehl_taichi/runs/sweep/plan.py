@@ -263,7 +263,7 @@ def unit(scene, key):
     """Unit of a key, "1" without one."""
     section, _, name = aliases.full_name(key).partition(".")
     if (section, name) == ("contact", "load"):
-        return "N/m" if scene.contact.kind == "line" else "N"
+        return scene.load_unit
     if section + "." + name in aliases.BY_SURFACE:
         return "m/s"
     try:

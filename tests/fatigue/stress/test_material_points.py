@@ -255,6 +255,6 @@ def test_heat_of_an_entry_is_that_of_its_time():
     reader = Formula(scene)
     reader.time = reader.time[0] + np.r_[0, 1, 3, np.arange(4.0, len(reader) + 1)] * (reader.time[1] - reader.time[0])
     passage, rows = StressHistories(scene, reader, reader.centres), slice(0, 1)
-    field = passage._stress_field(2, rows, lambda *_: {name: np.zeros((1, 1)) for name in COMPONENTS},
+    field = passage.stress_field(2, rows, lambda *_: {name: np.zeros((1, 1)) for name in COMPONENTS},
                                   lambda tick, _: np.full((6, 1, 1), float(tick)))
     assert (field == 3.0).all()
