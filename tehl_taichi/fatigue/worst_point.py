@@ -67,9 +67,9 @@ class WorstPoint:
         return {"x_a": np.append(centres, np.nan), "stress": self.stress, "normal": self.normal, "circle": self.circle}
 
 
-def worst_of(points, default=None):
+def worst_of(points):
     """The point with the largest index."""
-    return max(points, key=lambda point: point.compared, default=default)
+    return max(points, key=lambda point: point.compared)
 
 
 def worse(worst, places, history, f, normals, local):

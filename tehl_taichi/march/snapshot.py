@@ -108,7 +108,7 @@ def take(solved, step, time_s, feature_x, make_state):
     return Snapshot(step, time_s, feature_x, v.X * a, v.Y * a, nodes, numbers, make_state)
 
 
-def state_of(solver, heat, step):
-    """State in the solver's table, as arrays from which a march continues."""
-    return {"step": step, "P": solver.levels.get(fields.P), "H0": solver.H0, "load": solver.load,
+def first_state(solver, heat):
+    """State in the solver's table after a steady start, as arrays from which a march continues."""
+    return {"step": 0, "P": solver.levels.get(fields.P), "H0": solver.H0, "load": solver.load,
             **(heat.state() if heat else {})}

@@ -50,7 +50,7 @@ def steady_snapshot(scene, scales):
     result = solve_steady(scene, scales, scene.grid.nx, rows, looks, full)
     unsettled = _unsettled(result, scene)
     first = looks.taken(result.solver, result.heat, result.report) if unsettled else looks.newest
-    state = snapshot.state_of(result.solver, result.heat, 0)
+    state = snapshot.first_state(result.solver, result.heat)
     first.make_state = lambda carried=False: state
     first.scalars["cycles"], first.unsettled = float(result.work), unsettled
     first.grids, first.domain = result.values, DomainError() if unsettled else domain_error(result.solver)

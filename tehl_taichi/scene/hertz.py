@@ -26,9 +26,9 @@ def point_gap(X):
     return X * X / 2 - 1 + ((2 - X * X) * math.asin(1 / X) + math.sqrt(X * X - 1)) / math.pi
 
 
-def gap_reaches(H, gap=line_gap, farthest=10.0):
-    """Distance from the centre, in a, at which the gap beside the dry contact is H a^2/R' (at most `farthest`)."""
-    low, high = 1.0, farthest
+def gap_reaches(H, gap=line_gap):
+    """Distance from the centre, in a, at which the gap beside the dry contact is H a^2/R' (at most 10)."""
+    low, high = 1.0, 10.0
     for _ in range(40):
         X = 0.5 * (low + high)
         low, high = (X, high) if gap(X) < H else (low, X)

@@ -79,7 +79,7 @@ def test_endings_of_heights_in_capitals(tmp_path, ending):
                 np.save(file, heights)
         else:
             np.savetxt(tmp_path / name, heights, delimiter="," if ending == ".csv" else " ")
-        assert np.array_equal(height_map.read(tmp_path / name), heights), name
+        assert np.array_equal(height_map.table_of(tmp_path / name).values, heights), name
 
 
 def test_endings_of_scenes_studies_tables_and_pictures_in_capitals(tmp_path, monkeypatch):
@@ -117,7 +117,7 @@ def test_a_reader_of_instruments_that_dumps_all_it_tried(tmp_path, monkeypatch):
                        (RuntimeError, "No reader found for the file.")):
         monkeypatch.setitem(sys.modules, "SurfaceTopography", reader(kind))
         with pytest.raises(tehl.SceneError) as found:
-            height_map.read(file)
+            height_map.table_of(file)
         assert said in str(found.value) and str(file) in str(found.value) and one_sentence(str(found.value))
     assert brief(ValueError("\n\n  first \n second")) == "first" and brief(KeyError()) == "KeyError"
     assert len(brief(ValueError("long " * 300))) < 210

@@ -135,7 +135,7 @@ def test_heights_that_a_header_only_declares(tmp_path, shape):
     path = tmp_path / "scan.npy"
     path.write_bytes(header(shape) + bytes(800))
     with pytest.raises(SceneError, match=r"its header declares .* numbers, .* TB, and the file holds 0.8 kB"):
-        height_map.read(path)
+        height_map.table_of(path)
 
 
 @pytest.mark.parametrize("name", ["scan.npy", "scan.csv", "scan.txt"])
@@ -143,10 +143,10 @@ def test_heights_that_find_no_room(tmp_path, monkeypatch, name):
     path = tmp_path / name
     values = np.arange(400.0).reshape(20, 20)
     np.save(path, values) if name.endswith("npy") else np.savetxt(path, values, delimiter=",")
-    assert height_map.read(path).shape == (20, 20)
+    assert height_map.table_of(path).values.shape == (20, 20)
     monkeypatch.setattr(memory_limit, "available", lambda: 5000.0)
     with pytest.raises(SceneError, match=rf"{name}, .* needs .* kB of memory; 5 kB are available"):
-        height_map.read(path)
+        height_map.table_of(path)
 
 
 def test_checkpoints_that_declare_too_much(tmp_path):

@@ -375,7 +375,7 @@ def drawn(monkeypatch, found, tmp_path):
     """{name: figure} that write_fatigue would have saved."""
     kept = {}
     monkeypatch.setattr(FigureStyle, "save", lambda page, draw, path: kept.setdefault(path.stem, draw()))
-    write_fatigue(found, tehl.scene("gear"), tmp_path)
+    write_fatigue(found, tehl.scene("gear"), tmp_path, FigureStyle())
     return kept
 
 

@@ -74,7 +74,6 @@ def _fatigue(store, depth):
     return search_data.DrawnSearch.of(store.scene, SearchResult.from_arrays(by_surface(store.summary), store.map), depth)
 
 
-def write_fatigue(result, scene, folder, page=None, depth=None):
+def write_fatigue(result, scene, folder, page):
     """Write the figures of a SearchResult of a scene into `folder`; returns the paths. Raises SceneError, StoreError."""
-    page = page or FigureStyle()
-    return page.write(folder, fatigue_figures.all_figures(page, search_data.DrawnSearch.of(scene, result, depth)))
+    return page.write(folder, fatigue_figures.all_figures(page, search_data.DrawnSearch.of(scene, result, None)))

@@ -59,6 +59,7 @@ def test_lines_by_cyclic_reduction(problem):
     from tehl_taichi.engine.simd import W
     from tehl_taichi.pressure import fields
     from tehl_taichi.pressure.linear import line_solver
+    from tehl_taichi.pressure.linear.cells.solver import line_solutions
 
     by_rows, cells, (rows, _), precision = problem
     v, lanes = by_rows.levels, []
@@ -74,7 +75,7 @@ def test_lines_by_cyclic_reduction(problem):
     right = np.random.default_rng(2).standard_normal(table[fields.RES].shape)
     table[fields.RES] = right
     v.J.from_numpy(table)
-    cells.krylov.solve_lines()
+    line_solutions(cells.krylov.memory)
     solved = v.J.to_numpy()[fields.SOL]
     for l, columns, u, entries in lanes:
         exact = np.linalg.solve(dense_band(entries.astype(float), line_solver.HALF), right[columns, u])

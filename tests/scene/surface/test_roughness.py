@@ -16,7 +16,6 @@ from tehl_taichi.scene import scene, surface_roughness
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.film_formula import central_film
 from tehl_taichi.scene.scene_warnings import preview
-from tehl_taichi.scene.surface.maps.gaussian_filter import passes
 from tehl_taichi.scene.surface.roughness import Roughness
 
 STEP, COUNT = 0.5e-6, 2000
@@ -93,7 +92,8 @@ def test_before_and_after_the_filter(tmp_path):
     f = feature(tmp_path / "a.npy", shape="profile", pixel=STEP, level="mean", cutoff=50e-6, taper=100e-6)
     found = surface_roughness.to_dict(rough_gear(f))["a"]
     assert found["before_filters"]["Rq_m"] == pytest.approx(np.sqrt(0.3**2 + 0.2**2) * 1e-6 / np.sqrt(2), rel=1e-3)
-    kept = np.hypot(0.3 * passes(100e-6, 50e-6), 0.2 * passes(SHORT, 50e-6)) * 1e-6
+    shares = (math.exp(-math.log(2) * (50e-6 / length) ** 2) for length in (100e-6, SHORT))  # ISO 16610-61: half at the cutoff
+    kept = np.hypot(*(height * share for height, share in zip((0.3e-6, 0.2e-6), shares)))
     assert found["Rq_m"] == pytest.approx(kept / np.sqrt(2), rel=0.02)
     plain = surface_roughness.to_dict(rough_gear(feature(tmp_path / "a.npy", shape="profile", pixel=STEP, level="mean")))["a"]
     assert plain == found["before_filters"]

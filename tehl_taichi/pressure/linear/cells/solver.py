@@ -232,10 +232,6 @@ class CellKrylov:
             reduce(self.memory, n)
         invert(self.memory)
 
-    def solve_lines(self):
-        """Solve the lines of all levels for SOL, with RES as right-hand side."""
-        line_solutions(self.memory)
-
     def _sums(self):
         return self.numbers, self.parts, self.groups, self.totals
 

@@ -24,11 +24,6 @@ def limits(f):
     return FEWEST * max(step for step, _ in lines) * (1 - 1e-9), min(size for _, size in lines) * (1 + 1e-9)
 
 
-def passes(wavelength, cutoff):
-    """Share of the height of a wave along x or y that the filter keeps, far from the rim."""
-    return math.exp(-math.pi * (ALPHA * cutoff / wavelength) ** 2)
-
-
 def _smoothed(values, step, cutoff):
     """Filtered rows of `values`."""
     count = values.shape[1]

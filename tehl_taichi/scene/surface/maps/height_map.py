@@ -89,13 +89,10 @@ def named(f):
     return f"feature.file = {f.file!r}" if f.file else "the array of heights"
 
 
-def read(file):
-    """Heights (rows, columns) in the unit of the file; nan for unmeasured points. Raises SceneError."""
-    return table_of(file).values
-
-
 def table_of(file):
-    """Heights as a :class:`tehl_taichi.scene.surface.maps.text_heights.Table`, which lists skipped parts."""
+    """Heights as a :class:`tehl_taichi.scene.surface.maps.text_heights.Table`, which lists skipped parts; its values (rows,
+    columns) are in the unit of the file, nan for unmeasured points. Raises SceneError.
+    """
     path = Path(file)
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a file of heights (.csv, .txt, .asc, .npy)")

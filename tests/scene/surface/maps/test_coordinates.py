@@ -125,7 +125,7 @@ PANDAS = "," + ",".join(map(str, range(COLUMNS)))
 def test_csv_as_data_frames_write_it(tmp_path, head, index):
     lines = [",".join([*[str(n)] * index, *map(str, row)]) for n, row in enumerate(HEIGHTS)]
     (tmp_path / "scan.csv").write_text("\n".join([*[head] * bool(head), *lines]) + "\n")
-    assert np.array_equal(height_map.read(tmp_path / "scan.csv"), HEIGHTS)
+    assert np.array_equal(height_map.table_of(tmp_path / "scan.csv").values, HEIGHTS)
     f = feature(tmp_path / "scan.csv", pixel=2e-6, pixel_y=3e-6, taper=1e-6)
     assert f.heights.shape == HEIGHTS.shape and ("skipped" in height_map.facts(f).skipped)
 
@@ -169,7 +169,7 @@ def test_lists_of_points_become_a_grid(tmp_path, order, more, turned):
 def test_points_that_a_list_lacks_were_not_measured(tmp_path):
     table = np.delete(listed("xyz"), [40, 41, 100], axis=0)
     (tmp_path / "scan.xyz").write_text("\n".join(" ".join(map(str, row)) for row in table))
-    found = height_map.read(tmp_path / "scan.xyz")
+    found = height_map.table_of(tmp_path / "scan.xyz").values
     assert np.isnan(found).sum() == 3 and np.array_equal(found[~np.isnan(found)], HEIGHTS[~np.isnan(found)])
 
 

@@ -73,14 +73,14 @@ def test_a_tilted_map_is_levelled_and_a_broken_one_refused(tmp_path):
                                        ("d.txt", "# x; y, nm\n1.5 2   3 4e1 "), ("e.asc", "\ufeff1.5,2,3,4e1\r")])
 def test_tables_are_read_as_instruments_write_them(tmp_path, name, row):
     (tmp_path / name).write_text("\n".join([row, *[row.lstrip("\ufeff")] * 3]), encoding="utf-8")
-    assert height_map.read(tmp_path / name).tolist() == [[1.5, 2.0, 3.0, 40.0]] * 4
+    assert height_map.table_of(tmp_path / name).values.tolist() == [[1.5, 2.0, 3.0, 40.0]] * 4
 
 
 @pytest.mark.parametrize("mark, end", [(",", ""), (";", ";"), ("\t", "")])
 def test_nothing_between_two_marks_was_not_measured(tmp_path, mark, end):
     rows = [["1", "2", "3", "4"]] * 30 + [["", "2", " ", "nan"]]
     (tmp_path / "scan.csv").write_text("".join(mark.join(row) + end + "\n" for row in rows))
-    values = height_map.read(tmp_path / "scan.csv")
+    values = height_map.table_of(tmp_path / "scan.csv").values
     assert values.shape == (31, 4) and np.isnan(values[30]).tolist() == [True, False, True, True]
     np.testing.assert_array_equal(values[:30], [[1, 2, 3, 4]] * 30)
 

@@ -56,15 +56,15 @@ def test_marks_between_blanks(tmp_path, mark):
     (20, ROWS[20] + "\t1", r"line 21 has 7 columns, the first row \(line 1\) 6")])
 def test_what_is_wrong_below_the_header_is_named_by_its_line(tmp_path, at, row, words):
     with pytest.raises(SceneError, match=f"cannot read heights from .*scan.asc: ({words})"):
-        height_map.read(written(tmp_path, [*ROWS[:at], row, *ROWS[at + 1:]]))
+        height_map.table_of(written(tmp_path, [*ROWS[:at], row, *ROWS[at + 1:]]))
 
 
 def test_words_alone_are_refused(tmp_path):
     (tmp_path / "scan.txt").write_bytes(bytes(range(256)) * 20)
     with pytest.raises(SceneError, match="cannot read heights from"):
-        height_map.read(tmp_path / "scan.txt")
+        height_map.table_of(tmp_path / "scan.txt")
     with pytest.raises(SceneError, match="no line is a row of numbers"):
-        height_map.read(written(tmp_path, WYKO))
+        height_map.table_of(written(tmp_path, WYKO))
 
 
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-16-le", "utf-16-be", "utf-8-sig"])
