@@ -14,10 +14,8 @@ from tehl_taichi.pressure.saturation import Line, share, unknown
 
 LARGEST = 1e30  # Pa, Newtonian stress of the sliding: ghosts have no film
 SMALLEST = 1e-300
-# What a film carries by pressure, over what its walls carry at the mean speed, up to which walls yield by their law (`eased`).
-# Krylov iterations a step, gear isothermal on 512x128, SRR -0.12, 0.12, 0: with 1 16.2, 16.2, 14.4, here 15.8, 15.3, 13.9;
-# as its asperity leaves in rolling (0.8 to 1.2 a) on 1024x32 26.6, here 18.7, with 0.02 15.6. Largest pressures change by
-# 3e-4 at most (1D, 256 to 2048 columns), with 0.02 by 1 %. By the law alone 37 iterations at SRR 0.12 (512x128)
+# what a film carries by pressure, over what its walls carry at the mean speed, up to which walls yield by their law (`eased`):
+# by the law alone a linear solve takes twice as many iterations (docs/decisions/18)
 CARRIED = 0.1
 
 

@@ -21,37 +21,20 @@ from tehl_taichi.pressure.linear.multigrid_gmres import MultigridGmres
 SHORTEST_STEP = 0.05  # of a Newton step; below it a step is taken as it is and the next linearisation decides
 SMALL_CHANGE = 0.05  # in P/p_H: near the solution full steps are taken although the merit may rise for a moment
 SMALL_MERIT = 1e-2
-# So often in a time step: two states that full steps take into each other have no end. As a ridge leaves (test_effort), most
-# Newton steps in one with 0, 1, 2, 3: 30, 10, 12, 14; always: one is rejected. Without a limit in a start: 12 nm at 2.2 GPa on
-# 1024 columns converges in 12 s, with it not at all
-RISES = 2
-# and up to here a later round of a step keeps the slopes of the laws: Newton steps and evaluations of the laws a step, 256x64x9
-# at SRR -0.12: never 2.99, 7.5; up to here 2.97, 6.8; up to 0.01, 0.02 and 0.05 2.98, 3.02 and 3.03 Newton steps (64 columns:
-# 3.25, 3.38, 3.44, 3.44, 3.63). A step that began with a larger change keeps them from its first solve with a smaller one on:
-# window at an exit, equal Newton steps, launches of the linear solve 429 and 359
-SAME_SLOPES = 3e-3
-# Largest row scale in the Krylov norm: the diagonal is about 0.02 in the contact but 1e3 in the inlet. Newton / Krylov per
-# step over the inlet (256x64, to a mass error of 1e-6): no cap 4.2/32, at most 10/111; cap 1 3.7/38, at most 4/50; without
-# the mass component of the norm and cap 0.03 3.7/58. A cap in the merit too does not converge from Hertz.
-ROW_CAP = 1.0
-# Accuracy of a linear solve as a share of the reduction that convergence still needs: Newton / Krylov per step over the passage
-# 3.98/24.2 without, 3.45/24.3 with 0.3, 3.39/22.7 with 0.6 (the latter two with the mass component never above the rows' norm).
-FORCING = 0.6
-# And of what a Newton step is likely to gain: its nonlinear rest is about NONLINEAR times the square of the merit; later in a
-# solve, gains repeat themselves (Eisenstat & Walker 1996, choice 2). At most numerics.krylov_tolerance. Newton / Krylov, the
-# passage (with the guesses of :mod:`tehl_taichi.march.extrapolation`) and a steady circular contact of 512 columns: always 0.03
-# 2.51/18.5 and, with 0.1, 7/66; at first 100 times the merit, later 0.03 2.24/19.3; both, at most 0.1 2.31/18.8 and 7/63, at
-# most 0.2 2.36/18.6 and 6/52, at most 0.3 2.38/18.4 and 7/47
+# Alternatives to the next seven: docs/decisions/18
+RISES = 2  # in a time step: two states that full steps take into each other have no end
+SAME_SLOPES = 3e-3  # change of a round up to which later rounds of the step keep the slopes of the laws
+ROW_CAP = 1.0  # largest row scale in the Krylov norm: the diagonal is about 0.02 in the contact but 1e3 in the inlet
+FORCING = 0.6  # accuracy of a linear solve as a share of the reduction that convergence still needs
+# and of what a Newton step is likely to gain: its nonlinear rest is about NONLINEAR times the square of the merit; later in a
+# solve, gains repeat themselves (Eisenstat & Walker 1996, choice 2). At most numerics.krylov_tolerance
 NONLINEAR = 30.0
 GAIN, GAIN_POWER = 0.9, 1.618
-# A linear solve reduces the mass error more than the norm of the rows, by ten to fifty times. Newton / Krylov per step with a
-# factor of 10, 15 and 20: isothermal on 128 columns 2.50/14.4, 2.51/14.3, 2.54/14.2, on 256 2.26/13.4, 2.27/13.2, 2.26/13.0, on
-# 512 2.03/15.4, 2.04/14.9, 2.05/14.5, with temperatures 2.89/14.4, 2.92/14.3, 2.92/14.1. A start, which has no limit of rises,
-# is lost with 12 and more (gear at 20 deg C, SRR -0.12, 192 columns). Earlier guesses, 256: 2.31/18.2 with 1, 2.47/15.7 with 30
+# A linear solve reduces the mass error more than the norm of the rows, by ten to fifty times; starts have no limit of rises
 MASS_GAIN, MASS_GAIN_OF_STARTS = 15.0, 10.0
 MOST_SHARED = 0.5  # of the load: oil beyond the border that carries more than the grid is a domain that is too short
 SHARED = 1e-6  # of the load: smaller changes of what the oil beyond the border carries are none
-FIRST_ROUND = 0.1  # of :meth:`PressureSolver.improve`: 0.2 and 0.05 cost 3 % more
+FIRST_ROUND = 0.1  # of :meth:`PressureSolver.improve`
 
 
 @dataclass

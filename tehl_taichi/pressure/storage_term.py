@@ -26,13 +26,7 @@ from tehl_taichi.pressure.upwind import FIRST, UPWIND
 LONGEST_PATH = 2.0  # cells of a step; beyond, the frame moves slower than the oil
 STABLE_AT_REST = 0.5  # cells of a step that the oil may move in that frame with third-order differences
 ORDER = 3
-# Of the node-to-node wave on the way of a cell, where paths are of whole cells and nothing else damps it. furrow-line (two
-# cells a step), largest ripple of the pressure over the passage / with the furrow at -0.5 a, MPa: as it is 37/35, paths of at
-# most 1.95 / 1.9 cells 31/21 / 30/13, filters by the fourth difference (0.5 of a path) 8/0.2, the sixth (0.5) 9/0.2, the
-# eighth (0.2) 27/8, (0.5) 10/0.2, (1) 6/0.2; film under the asperity of pitch-line on 128 columns (one cell a step), um: as
-# it is 0.1308, fourth 0.1283, sixth 0.1276, eighth 0.1309, 0.1303, 0.1287. The furrow's film does not change (0.1970). The
-# eighth with 0.5 of each cell: 7 on 256 columns, 17 on 128 (0.5 of a path 21), 45 at the exit of 512 (57), and the asperity's
-# film stays 0.1303
+# of the node-to-node wave on the way of a cell, where paths are of whole cells and nothing else damps it (docs/decisions/18)
 DAMPING = 0.5
 EIGHTH = tuple((-1.0) ** m * math.comb(8, m) / 256 for m in range(9))  # eighth difference, of the wave (-1)^i the wave
 FOLLOWING = 2  # work of a column, in units of a copy

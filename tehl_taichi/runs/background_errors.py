@@ -1,9 +1,5 @@
 """Coarse-grid runs in the background: in another process beside a long run, with the time of the cores that nothing else
-uses; otherwise after the run, in its process.
-
-Default gear on both of two cores, s, medians of four in turn: 24.5 with coarse-grid runs after the run, 22.9 beside it (23.3 at
-nice 19). Without temperatures nothing is gained: 12.6 and 12.3. Searching before `until` is known, in the time of the passage,
-takes 1.1 s more.
+uses; otherwise after the run, in its process (docs/decisions/17).
 """
 
 import contextlib

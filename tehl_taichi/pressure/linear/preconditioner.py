@@ -13,15 +13,10 @@ from tehl_taichi.pressure.levels import HEAVY
 from tehl_taichi.pressure.linear import line_solver
 
 # Bounds between local and distributed columns in time steps: (cells, half-widths) of the storage of the film, for one row and
-# for several. Krylov iterations per step of the gear at SRR -0.12 with 0.5 / 1 / 2 / 4 half-widths: whole passages on 128
-# columns 14.3 / 14.2 / 14.2 / 14.5, on 256 - / - / 13.3 / 13.4, on 512 - / - / 15.3 / 15.4; the entry of the feature on 512
-# columns 15.9 / 13.9 / 12.1 / 12.2, on 1024 - / 25 / 21 / 18 (18 with 6). With 30 cells: 14.2, 15.9, 22.7 for passages, 17.6
-# and 27 for the entry. One row, a ridge that leaves the contact, 1024 columns: 12.5 with 30 cells, 26 with 0.25 half-widths
+# for several (docs/decisions/18)
 STORED_LINE = 30.0, 0.0
 STORED = 0.0, 4.0
-# The bound of steady starts, for one row and for several. Sum of Krylov iterations on the finest grid of steady point contacts
-# with 0.5 / 2 / 4 / 8 / 16 / 32: 18 contacts on 128 and 256 columns 1345 / 1156 / 1085 / 1127 / 1201 / -, 5 contacts on 512
-# columns 396 / 315 / 289 / 311 / 289 / 288. One row: with 2 the starts on 2048 columns do not converge
+# and of steady starts: one row with 2 does not converge on 2048 columns
 REST_LINE, REST = 0.5, 8.0
 
 
