@@ -16,6 +16,9 @@ from tehl_taichi.engine import runtime
 from tehl_taichi.runs.sweep import pool
 from tehl_taichi.store.json_values import plain
 
+# of runs whose suite works out fatigue and errors itself, for all grids and loads together
+BARE = {"fatigue.on": False, "numerics.estimate_error": False}
+
 
 @dataclass(frozen=True)
 class Timing:
@@ -83,6 +86,19 @@ def median(function, repeats):
         function()
         seconds.append(time.perf_counter() - started)
     return float(np.median(seconds[1:]))
+
+
+def markdown(columns, rows):
+    """Lines of a Markdown table of texts."""
+    return [f"| {' | '.join(line)} |" for line in (columns, ["---"] * len(columns), *rows)]
+
+
+def chart_of_rows(plt, names, height=0.35):
+    """(figure, axes, places) of a chart with a named row for each number; height of a row in inches."""
+    figure, ax = plt.subplots(figsize=(8, height * len(names) + 1.4), constrained_layout=True)
+    ax.set_yticks(at := np.arange(len(names)), names)
+    ax.invert_yaxis()
+    return figure, ax, at
 
 
 def machine():

@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from tehl_taichi.profiles import measure
 
 from tehl_taichi.runs.single_run import run_or_resume
-from tehl_taichi.runs.table_column import error_of, value_at
 from tehl_taichi.scene import scene
+from tehl_taichi.values.summary_values import error_of, value_at
 from tehl_taichi.view.zoom_window import ZoomWindow
 
 GRID, FACTOR = (128, 32), 4
@@ -145,13 +146,10 @@ def _pair(row):
 
 def chart(plt, rows):
     """Distance from the fine run, of the coarse run and with its window."""
-    figure, ax = plt.subplots(figsize=(8, 0.28 * len(rows) + 1.4), constrained_layout=True)
-    at = np.arange(len(rows))
+    figure, ax, at = measure.chart_of_rows(plt, [f"{row.case}, {row.number}" for row in rows], 0.28)
     coarse = [np.nan if row.coarse is None else abs(row.coarse / row.fine - 1) for row in rows]
     for name, values in (("coarse", coarse), ("with window", [row.off for row in rows])):
         ax.plot(100 * np.maximum(values, 1e-6), at, "o", label=name)
-    ax.set(xscale="log", xlabel="distance from the fine run, %", yticks=at,
-           yticklabels=[f"{row.case}, {row.number}" for row in rows])
-    ax.invert_yaxis()
+    ax.set(xscale="log", xlabel="distance from the fine run, %")
     ax.legend()
     return figure

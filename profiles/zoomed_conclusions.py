@@ -11,6 +11,7 @@ from tehl_taichi.profiles.passage_stresses import DEEP, DEPTHS, LOADS
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.runs.single_run import run_or_resume
+from tehl_taichi.values.summary_values import error_of
 
 GRID, QUICK_GRID = (256, 64), (32, 8)  # cells of the runs
 SURFACE, BELOW = ("all", "whole"), DEEP["whole"]
@@ -71,7 +72,7 @@ def _of_body(name, srr, body, found, grid):
 
 def _error(part):
     """Relative; nan where it is not known."""
-    bar = part.get("error", {}).get("Fi_max")
+    bar = error_of(part, "Fi_max")
     return np.nan if bar is None else bar / part["Fi_max"]
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.values.digits import micrometres
+from tehl_taichi.values.summary_values import error_of
 
 ABOVE, WITHIN, BELOW = 1, 0, -1
 
@@ -106,7 +107,9 @@ def _settled(searches):
 
 
 def all_layers(searches):
-    """The :func:`layers` of each {surface: summary of its search}; with two surfaces the texts name them."""
+    """[(text of the place, Fi, its error or None)] at and below each surface, of {surface: summary of its search}; with two
+    surfaces the texts name them.
+    """
     return [point.layer for point in judged_points(searches)]
 
 
@@ -115,11 +118,6 @@ def judged_points(searches):
     rough surfaces the index is the 99th percentile.
     """
     return [point for name, found in searches.items() for point in _judged(searched(found), _text(name, searches), name)]
-
-
-def layers(fatigue, surface="the surface"):
-    """[(text of the place, Fi, its error or None)] at and below the surface, of a search or its part."""
-    return [point.layer for point in _judged(searched(fatigue), surface, None)]
 
 
 def _text(name, searches):
@@ -147,7 +145,7 @@ def leading(found):
 
 def _alone_known(own, other):
     """Whether the error of the averaged index is known and that of the pointwise one is not."""
-    errors = [(part or {}).get("error", {}).get("Fi_max") for part in (own, other)]
+    errors = [error_of(part, "Fi_max") for part in (own, other)]
     return errors[0] is None and errors[1] is not None
 
 
@@ -163,8 +161,3 @@ def over(length, um="µm"):
 def _percentiles(fatigue, surface, name):
     both = fatigue["statistics"], fatigue.get("below", {}).get("statistics")
     return [JudgedPoint(_where(part, surface), part, "p99", name) for part in both if part]
-
-
-def error_of(part, key):
-    """Error bar of a number of a part, None if it is unknown."""
-    return part.get("error", {}).get(key)

@@ -6,17 +6,17 @@ from pathlib import Path
 from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.report import place_sections
 from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
-from tehl_taichi.report.number_text import FEW, value_text
+from tehl_taichi.report.number_text import FEW, sentence_case, value_text
 from tehl_taichi.report.plots import Figure, axis, colour, line, stack
 from tehl_taichi.report.verdict import limit_words, of_fatigue
 from tehl_taichi.runs.bearing import bearing_figure, bearing_table
 from tehl_taichi.runs.bearing.rolling_bearing import OF_BALLS, OF_ROLLERS, ROLLER, RollingBearing
 from tehl_taichi.runs.bearing.stored_bearing import Bearing
-from tehl_taichi.runs.table_column import error_of, value_at
 from tehl_taichi.scene import scene_file
 from tehl_taichi.store.reader import Reader
 from tehl_taichi.values.digits import printed_unit
 from tehl_taichi.values.quantity import kinds
+from tehl_taichi.values.summary_values import error_of, value_at
 
 QUESTION = "Does the bearing carry its load, and how thick is the film?"
 CRACK_QUESTION = "Does the bearing carry its load, and does a fatigue crack start?"  # of one over which a feature passes
@@ -39,7 +39,8 @@ def of(folder):
         Section("Not converged", (sentences([f"{ring} ring: {reason}" for ring, reason in found.failed.items()]),)),
         Section("Bearing", (facts(_dimensions(found)), sentences(_sources(found)))),
         Section("Warnings", (sentences(bearing_table.warnings(found)),)),
-        Section("Provenance", (facts(_provenance(found)),))))
+        Section("Provenance", (facts(place_sections.provenance(
+            found.folder, [one["summary"] for one in found.rings.values()], "both contacts")),))))
 
 
 def _results(found):
@@ -66,8 +67,8 @@ def answer(found):
     why = [*[_film(found)] * bool(cracks), f"The Hertz pressure is {p_H}; ISO 76 allows "
            f"{limit / 1e9:g} GPa, where the permanent deformation is 0.0001 of the diameter of an element."]
     doubts = [*limits(found), f"Assumed: {'; '.join(found.record['assumptions'])}.",
-              *filter(None, [_sentence(bearing_table.estimated_words(found))]),
-              *[f"Number of warnings, listed below: {count}." for count in (len(bearing_table.warnings(found)),) if count]]
+              *_estimated(found),
+              *place_sections.counted(bearing_table.warnings(found))]
     tone = "yes" if safe < 1 else cracks[0][1] if cracks else "none"
     if not cracks:
         return Answer(QUESTION, f"{static} {_film(found)}", tone, tuple(why), tuple(doubts))
@@ -104,8 +105,9 @@ def limits(found):
     return limit_words(scene_file.load(found.folder / f"{judged[0]}.toml")) if judged else ()
 
 
-def _sentence(words):
-    return f"{words[0].upper()}{words[1:]}." if words else ""
+def _estimated(found):
+    """(sentence about dimensions that are not published,), () if all are."""
+    return tuple(f"{sentence_case(words)}." for words in filter(None, [bearing_table.estimated_words(found)]))
 
 
 def figures(found):
@@ -148,11 +150,4 @@ def _sources(found):
     """Text of the source of the dimensions, and of the scene files."""
     scenes = ", ".join(Path(one["scene_file"]).name for one in found.rings.values())
     return [f"Dimensions: {found.record['source']}.", f"Scenes of both contacts, to run and change: {scenes}.",
-            *filter(None, [_sentence(bearing_table.estimated_words(found))])]
-
-
-def _provenance(found):
-    ran = [one["summary"] for one in found.rings.values() if one["summary"]]
-    versions = ", ".join(sorted({summary["version"] for summary in ran}))
-    return [("folder", found.folder.name), *([("version", versions)] if ran else []),
-            *([("run time of both contacts", f"{sum(summary['wall_s'] for summary in ran):.0f} s")] if ran else [])]
+            *_estimated(found)]

@@ -11,7 +11,6 @@ from tehl_taichi.runs.cam import cam_columns, cam_figure
 from tehl_taichi.runs.cam.stored_cam import Cam
 from tehl_taichi.runs.flank.flank_figure import JUDGED
 from tehl_taichi.values.coded_text import without_options
-from tehl_taichi.values.digits import part_of
 
 
 def of(folder, out=None):
@@ -28,7 +27,8 @@ def of(folder, out=None):
         *place_sections.critical(store, words), *place_sections.scene(store, words),
         Section("Without a result", (sentences([f"{at.words}: {reason}" for at, reason in cam.failed]),)),
         Section("Warnings", (sentences(warnings(cam)),)),
-        Section("Provenance", (facts(_provenance(cam)),))))
+        Section("Provenance", (facts(place_sections.provenance(
+            cam.folder, [summary for *_, summary in cam.rows], "all angles", ("table", cam.record["source"]))),))))
 
 
 def _words(at):
@@ -51,9 +51,8 @@ def limits(cam):
 
 def answer(cam):
     """The :class:`tehl_taichi.report.document.Answer` of a cam: the thinnest film, or the largest index if features pass."""
-    failed = part_of(len(cam.failed), len(cam.rows), "angle", "has no result and is", "have no result and are")
-    left = f"{failed} not part of this answer."
-    doubts = (*limits(cam), f"Assumed: {cam.record['assumption']}.", *[left] * bool(cam.failed))
+    doubts = (*limits(cam), f"Assumed: {cam.record['assumption']}.", *place_sections.missing(cam, "angle"),
+              *place_sections.counted(warnings(cam)))
     thin = _thinnest(cam)
     if places := _places(cam):
         headline, tone, sentences = place_verdict.answer(places, len(cam.rows))
@@ -84,10 +83,3 @@ def _line(name, x, y, factor, shade):
 def warnings(cam, spelled=without_options):
     """Warnings of all angles, each kind once with its angles; spelled: function for their texts (default: for a page)."""
     return place_warnings.of(cam.rows, _words, spelled)
-
-
-def _provenance(cam):
-    ran = [summary for *_, summary in cam.rows if summary]
-    return [("folder", cam.folder.name), ("table", cam.record["source"]),
-            ("version", ", ".join(sorted({summary["version"] for summary in ran}))),
-            ("run time of all angles", f"{sum(summary['wall_s'] for summary in ran):.0f} s")]

@@ -10,11 +10,11 @@ from tehl_taichi.runs.flank import specific_film
 from tehl_taichi.runs.flank.flank_columns import plotted_value, tables
 from tehl_taichi.runs.flank.flank_figure import JUDGED, PANELS
 from tehl_taichi.runs.flank.stored_flank import Flank
-from tehl_taichi.runs.table_column import value_at
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.values.coded_text import without_options
-from tehl_taichi.values.digits import number_of, part_of, printed_unit
+from tehl_taichi.values.digits import number_of, printed_unit
 from tehl_taichi.values.quantity import kinds
+from tehl_taichi.values.summary_values import value_at
 from tehl_taichi.view.figures.palette import GREY
 
 ALONG = "x_pl from the pitch point (mm)"
@@ -43,7 +43,8 @@ def of(folder, out=None):
         Section("Gears and load", (facts(gears(flank)),
                                    sentences([f"Load: {flank.record['load_sharing']}.", *no_film_words(flank)]))),
         Section("Warnings", (sentences(warnings(flank)),)),
-        Section("Provenance", (facts(_provenance(flank)),))))
+        Section("Provenance", (facts(place_sections.provenance(
+            flank.folder, [summary for *_, summary in flank.rows], "all positions")),))))
 
 
 def _critical(flank):
@@ -76,13 +77,10 @@ def limits(flank):
 
 def answer(flank):
     """The :class:`tehl_taichi.report.document.Answer` of a flank."""
-    failed = part_of(len(flank.failed), len(flank.rows), "position", "did not converge and is", "did not converge and are")
-    left = f"{failed} not part of this answer."
-    count = f"Number of warnings, listed below: {len(warnings(flank))}."
     none = [f"No verdict at {_where(at)}: {why_none(part)}." for at, _, summary in flank.rows
             if (part := value_at(summary, "fatigue")) and why_none(part)]
-    doubts = (*limits(flank), *none, *[left] * bool(flank.failed), f"Assumed: {flank.record['assumption']}.",
-              *[count] * bool(warnings(flank)))
+    doubts = (*limits(flank), *none, *place_sections.missing(flank, "position"), f"Assumed: {flank.record['assumption']}.",
+              *place_sections.counted(warnings(flank)))
     if places := judged_places(flank):
         headline, tone, sentences = place_verdict.answer(places, len(flank.rows))
         return Answer(QUESTION, headline, tone, (*sentences, *film_words(flank)), doubts)
@@ -193,10 +191,3 @@ def no_film_words(flank):
 def warnings(flank, spelled=without_options):
     """Warnings of all positions, each kind once with its positions; spelled: function for their texts (default: for a page)."""
     return place_warnings.of(flank.rows, short_name, spelled)
-
-
-def _provenance(flank):
-    """Rows with the versions in the summaries."""
-    versions = sorted({summary["version"] for *_, summary in flank.rows if summary})
-    seconds = sum(summary["wall_s"] for *_, summary in flank.rows if summary)
-    return [("folder", flank.folder.name), ("version", ", ".join(versions)), ("run time of all positions", f"{seconds:.0f} s")]

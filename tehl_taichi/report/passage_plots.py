@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tehl_taichi.report.number_text import sentence_case
 from tehl_taichi.report.plots import colour, line, stack
 from tehl_taichi.scene.feature_wording import feature_word, position_title
 from tehl_taichi.scene.scales import Scales
@@ -112,7 +113,7 @@ def _carries(store):
 
 def _caption(store, shown):
     along = Moments(store).along
-    caption = f"{along[0].upper()}{along[1:]}.{_carries(store)}"
+    caption = f"{sentence_case(along)}.{_carries(store)}"
     if len(shown) > 1:
         caption += f" Grey: the steady start; dotted: the centre of the {feature_word(store.scene)}."
     left = [part_of(len(shown), store.steps, "stored moment")] * (len(shown) < store.steps)

@@ -5,8 +5,9 @@ from tehl_taichi.report.document import PageBlock, Section, facts, figure_block
 from tehl_taichi.report.searches import searches
 from tehl_taichi.report.verdict import limit_words
 from tehl_taichi.runs.summary import limit_meaning
-from tehl_taichi.runs.table_column import value_at
 from tehl_taichi.store.attributes import text
+from tehl_taichi.values.digits import part_of
+from tehl_taichi.values.summary_values import value_at
 from tehl_taichi.view.figures.map_panels import is_turned
 
 MAPS = ("map-pressure", "map-film")
@@ -66,6 +67,25 @@ def passages(rows, words):
     early = ", ".join(name for name in found if found[name])
     most = f"; at {early} the grid does not resolve the pressure of the whole passage, which can only lower them"
     return (f"Passages and hours to initiation are those of the index that decides at each place{most * bool(early)}.",)
+
+
+def provenance(folder, summaries, runs, *more):
+    """Rows of provenance; summaries: of the runs (None: no result); runs: their name; more: rows after the folder."""
+    ran = [one for one in summaries if one]
+    rows = [("version", ", ".join(sorted({one["version"] for one in ran}))),
+            (f"run time of {runs}", f"{sum(one['wall_s'] for one in ran):.0f} s")]
+    return [("folder", folder.name), *more, *(rows if ran else [])]
+
+
+def missing(found, noun):
+    """(sentence about the places without a result,) of a flank or a cam, () without such places."""
+    count = part_of(len(found.failed), len(found.rows), noun, "has no result and is", "have no result and are")
+    return (f"{count} not part of this answer.",) if found.failed else ()
+
+
+def counted(warnings):
+    """(number of warnings as a sentence,), () without warnings."""
+    return (f"Number of warnings, listed below: {len(warnings)}.",) if warnings else ()
 
 
 def limit(store, words):

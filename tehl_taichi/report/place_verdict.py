@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, error_of, judged, order, worst_layer
+from tehl_taichi.fatigue.judged_layers import ABOVE, BELOW, WITHIN, all_layers, deciding, judged, order, worst_layer
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.number_text import FEW, index, value_text
 from tehl_taichi.report.verdict import LATER, headline, state_and_index, with_load
-from tehl_taichi.runs.table_column import error_of as error_in
 from tehl_taichi.values.digits import micrometres, part_of
+from tehl_taichi.values.summary_values import error_of
 
 UNKNOWN_LATER = "Probably not: the index stays below 1, but over the whole passage its error is unknown."
 
@@ -168,7 +168,7 @@ def thinnest(rows):
     """(text of the smallest steady film with its error, its place); None without results. rows: (place, Hertz pressure, summary
     or None).
     """
-    found = [(summary["steady"]["h_min_m"], error_in(summary, "steady", "h_min_m"), at) for at, _, summary in rows if summary]
+    found = [(summary["steady"]["h_min_m"], error_of(summary, "steady", "h_min_m"), at) for at, _, summary in rows if summary]
     if not found:
         return None
     film, error, at = min(found, key=lambda entry: entry[0])

@@ -17,6 +17,7 @@ from tehl_taichi.report import (
     zoom_plots,
 )
 from tehl_taichi.report.document import Page, PageBlock, Section, facts, figure_block, sentences
+from tehl_taichi.report.number_text import sentence_case
 from tehl_taichi.report.searches import searches
 from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.store.attributes import text
@@ -77,17 +78,13 @@ def _of_search(store, search, front):
     lead = f"The answer uses this {'part' if search.on else 'search'}: " * front
     shown = figure_block(*fatigue_plots.distribution(search), *fatigue_plots.index(search), *fatigue_plots.depth(search))
     behind = NO_MAPS if shown is None else DARK if search.on else ""
-    words, numbers = [_sentence(f"{lead}{search.when}.") + behind] * bool(search.short), search.result.numbers
+    words, numbers = [sentence_case(f"{lead}{search.when}.") + behind] * bool(search.short), search.result.numbers
     return (Section(f"Fatigue{of}", (PageBlock("text", {"sentences": words}) if words else None,
                                      figure_block(*chain_plot.figures(store, search)), shown, numbered_points.rows(search)),
                     front),
             Section(f"Critical points{of}", (run_tables.worst_points(numbers, search.scene), run_tables.tension(numbers))),
             Section(f"Stresses at the critical points{of}",
                     tuple(figure_block(*pair) for pair in fatigue_plots.worst_points(search))))
-
-
-def _sentence(words):
-    return words[0].upper() + words[1:]
 
 
 def _made(store):

@@ -11,6 +11,7 @@ from tehl_taichi.runs.summary.summary_rows import contact_share
 from tehl_taichi.scene.feature_wording import feature_word
 from tehl_taichi.store import integrity
 from tehl_taichi.values.coded_text import Reason, reasons_of
+from tehl_taichi.values.summary_values import error_of
 from tehl_taichi.view.figures.index_text import resolved_words
 
 PARTS = (("steady", "steady start"), ("transient", "passage"), ("fatigue", "fatigue"))
@@ -116,7 +117,7 @@ def in_file(scene, x, y):
 def _of_point(point, key, unit):
     """Text of a number of a point, '' without one; the index as everywhere on the page."""
     if key == "Fi_max":
-        return index(point[key], point.get("error", {}).get(key))
+        return index(point[key], error_of(point, key))
     return value_text(point[key], unit=unit) if key in point else ""
 
 

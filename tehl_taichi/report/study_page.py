@@ -6,7 +6,7 @@ import numpy as np
 
 from tehl_taichi.fatigue.judged_layers import ABOVE, WITHIN, judged
 from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
-from tehl_taichi.report.number_text import value_text
+from tehl_taichi.report.number_text import sentence_case, value_text
 from tehl_taichi.report.run_page import scene_section
 from tehl_taichi.report.study_plots import figures
 from tehl_taichi.report.verdict import limit_words
@@ -88,7 +88,7 @@ def _ranges(study):
             name, unit = name_and_unit(label)
             low, top = (f"{_cell(values, errors, n)}{f' {unit}' * bool(unit)} ({_changes(study, n)})"
                         for n in (int(np.nanargmin(values)), int(np.nanargmax(values))))
-            yield f"{name[0].upper()}{name[1:]}: {low} to {top}."
+            yield f"{sentence_case(name)}: {low} to {top}."
 
 
 def _cell(values, errors, n):

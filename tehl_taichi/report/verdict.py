@@ -9,7 +9,6 @@ from tehl_taichi.fatigue.judged_layers import (
     all_layers,
     deciding,
     deciding_point,
-    error_of,
     judged,
     order,
     over,
@@ -18,7 +17,7 @@ from tehl_taichi.fatigue.judged_layers import (
 from tehl_taichi.fatigue.judged_surfaces import others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
-from tehl_taichi.report.number_text import index, value_text
+from tehl_taichi.report.number_text import index, sentence_case, value_text
 from tehl_taichi.report.scene_text import WHOLE, material, moments, when
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.summary import life, limit_meaning, rim_warnings
@@ -28,6 +27,7 @@ from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.values.digits import micrometres, number_of, part_of, with_error
 from tehl_taichi.values.escape import typed
+from tehl_taichi.values.summary_values import error_of
 
 LATER = {state: f"Not decided: the index stays below 1 while the grid resolves the pressure, and {word} 1 later"
          for state, word in ((ABOVE, "exceeds"), (WITHIN, "may exceed"))}
@@ -46,7 +46,7 @@ def of(store):
     yields, rims = _yielding(summary), list(rim_warnings.rims(store, summary))
     stated = {"yield": yields, "rim": rims}  # before the other doubts
     warnings = [one for one in store.warnings if not stated.get(one.code)]
-    at_rim = [f"{rim[0].upper()}{rim[1:]}." for rim in rims]
+    at_rim = [f"{sentence_case(rim)}." for rim in rims]
     doubts = (*yields, *at_rim, *_cut(store), *_constants(store, summary), *_version(store))
     sentences = (*sentences, *_run_in(summary), *_life(summary), *_read_first(warnings))
     return Answer(question, headline, tone, sentences, doubts, tuple(warnings))
@@ -135,7 +135,7 @@ def _by_resolved_part(parts, whole, sentences, over, whose):
     worst, places, known, early = _judged_indices(parts)
     end = f"{whose} up to {_place(next(iter(parts.values()))['to_x_a'])}"
     sentences = [f"While the grid resolves the pressure ({end}; the rest can only add):", *early,
-                 f"{over[0].upper()}{over[1:]}, where the grid does not resolve the pressure:", *sentences]
+                 f"{sentence_case(over)}, where the grid does not resolve the pressure:", *sentences]
     return _resolved_headline(worst, whole, places, known, over), sentences
 
 
@@ -159,7 +159,7 @@ def _place(x):
 
 def _index_sentence(where, Fi, error):
     unknown = "" if error is not None else " (error unknown)"
-    return f"{where[0].upper()}{where[1:]}: Fi = {index(Fi, error)}{unknown}, {SAID[judged(Fi, error)]}."
+    return f"{sentence_case(where)}: Fi = {index(Fi, error)}{unknown}, {SAID[judged(Fi, error)]}."
 
 
 def headline(worst, places, known, when=""):
@@ -231,7 +231,7 @@ def _of_film(summary, scene):
 
 
 def _with_error(part, key, unit):
-    return value_text(part[key], part.get("error", {}).get(key), unit)
+    return value_text(part[key], error_of(part, key), unit)
 
 
 def _none_yet(store):

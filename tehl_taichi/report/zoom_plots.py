@@ -3,6 +3,7 @@
 import numpy as np
 
 from tehl_taichi.report.document import Section, figure_block
+from tehl_taichi.report.number_text import sentence_case
 from tehl_taichi.report.passage_plots import FIELDS, film_top
 from tehl_taichi.report.plots import colour, field_map, line, stack
 from tehl_taichi.view.figures.line_figures import ALONG
@@ -42,7 +43,7 @@ def _lines(store, window):
                     (window.columns(n), fine[name][:, row], f"window, cells {store.scene.zoom.factor} times finer", colour(0)))
             panels.append((title, [line(x / moments.a, values * factor, text, hue, len(panels) + 1, in_legend=not panels)
                                    for x, values, text, hue in both], _ends(store, name)))
-    along = f"{moments.along[0].upper()}{moments.along[1:]}"
+    along = sentence_case(moments.along)
     text = f"{along}, {moments.says(n)}: the largest pressure of the window{window.number}."
     return stack(f"{_name(window)}-lines", text, ALONG, panels)
 

@@ -11,6 +11,7 @@ from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.march.accuracy.coarse_runs import FI, indices, von_mises_parts
 from tehl_taichi.values.coded_text import Reason, reasons_of, unknown_of
+from tehl_taichi.values.summary_values import error_of
 
 OTHER = Reason("the coarse-grid runs used the constants and moments of the run, not these", "other")
 # of the section [fatigue]: they change no stress of a point (limits do by kappa, which is compared; what a length averages is a
@@ -58,6 +59,6 @@ def _scaled(part, before):
     stress = "findley_stress_max_Pa"
     if not before or abs(part[stress] - before[stress]) > SAME * abs(before[stress]):
         return {FI: None}, {FI: OTHER}
-    bar = before.get("error", {}).get(FI)
+    bar = error_of(before, FI)
     scaled = None if bar is None else abs(bar * part[FI] / before[FI])
     return {FI: scaled}, reasons_of(before)

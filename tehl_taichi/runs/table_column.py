@@ -9,18 +9,6 @@ from tehl_taichi.values.digits import with_error
 from tehl_taichi.values.escape import cell
 
 
-def value_at(summary, *keys):
-    """Value in a summary by its nested keys; None if it is missing or if there is no summary."""
-    for key in keys:
-        summary = (summary or {}).get(key)
-    return summary
-
-
-def error_of(summary, *keys):
-    """Error bar of a value in a summary by its nested keys; None if it is missing."""
-    return value_at(summary, *keys[:-1], "error", keys[-1])
-
-
 @dataclass(frozen=True)
 class TableColumn:
     """name: with its SI unit, for the CSV file; head, factor, form: of the printed table `table`; value, error: functions of

@@ -86,7 +86,7 @@ def of(Fi, error, wide, wide_error):
 def test_it_leads_where_its_error_alone_is_known(error, wide_error, leads):
     """Pointwise 1.05 and averaged 0.76: the answer is no where the second leads."""
     fatigue = of(1.05, error, 0.76, wide_error)
-    (where, Fi, bar), = judged_layers.layers(fatigue)
+    (where, Fi, bar), = judged_layers.all_layers({"a": fatigue})
     assert (Fi, bar) == ((0.76, 0.01) if leads else (1.05, error))
     assert ("averaged over 10 µm" in where) == leads
     tone = verdict.of_fatigue(fatigue)[2]

@@ -48,7 +48,7 @@ def test_the_critical_plane_is_of_the_point_that_decides(averaged, where):
 
 
 def test_a_surface_that_holds_over_a_depth_that_does_not():
-    layers = judged_layers.layers(made_results.fatigue(0.5, 1.2))
+    layers = judged_layers.all_layers({"a": made_results.fatigue(0.5, 1.2)})
     assert [where for where, *_ in layers] == ["at the surface", "25 µm below the surface"]
 
 

@@ -5,7 +5,8 @@ import math
 from tehl_taichi.runs import place_warnings, table_column
 from tehl_taichi.runs.bearing.ring_contacts import RINGS
 from tehl_taichi.runs.flank.flank_columns import PASSAGE, judged_index, title_of
-from tehl_taichi.runs.table_column import TableColumn, error_of, value_at
+from tehl_taichi.runs.table_column import TableColumn
+from tehl_taichi.values.summary_values import error_of, value_at
 
 
 def of_ring(*keys):

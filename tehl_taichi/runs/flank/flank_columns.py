@@ -5,8 +5,9 @@ from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.march import quantities
 from tehl_taichi.runs import table_column
-from tehl_taichi.runs.table_column import TableColumn, error_of, value_at
+from tehl_taichi.runs.table_column import TableColumn
 from tehl_taichi.scene import surface_roughness
+from tehl_taichi.values.summary_values import error_of, value_at
 
 
 def shown_value(summary, *keys):

@@ -12,6 +12,7 @@ from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import Option, code_of
 from tehl_taichi.values.coded_warning import with_data
+from tehl_taichi.values.summary_values import error_of
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to carry more than about 0.12 of the pressure, traction fluids included
 MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
@@ -59,7 +60,7 @@ def unresolved(store, summary):
     """Warnings about unresolved peaks of the steady state, and of the moment with the largest pressure of the passage, unless a
     sequence of grids resolves it.
     """
-    known = summary.get("transient", {}).get("error", {}).get("p_max_Pa") is not None
+    known = error_of(summary, "transient", "p_max_Pa") is not None
     for n in dict.fromkeys((0,) if known else (0, int(np.argmax(store.scalar("p_max_Pa"))))):
         p = store.fields(n, ("pressure",))["pressure"]
         height, (i, _) = sharpest(p)

@@ -5,6 +5,7 @@ import math
 from tehl_taichi.fatigue.pressure_alone import searched
 from tehl_taichi.laws.criteria import CRITERIA
 from tehl_taichi.values.digits import with_error
+from tehl_taichi.values.summary_values import error_of
 
 # Error of a pressure in proportion to the index, as a share of it, per factor e between both: friction and depth change, too
 # (smooth line, isothermal: 1.611 GPa by an index of 1.2, 1.620 iterated; 0.604 by 3.2, 0.663)
@@ -16,7 +17,7 @@ def smooth_pressure(summary):
     such an index, or with residual stress, which does not grow with the pressure.
     """
     alone = _alone(summary)
-    if not alone or not alone["Fi_max"] > 0 or alone.get("error", {}).get("Fi_max") is None or alone.get("residual_counted"):
+    if not alone or not alone["Fi_max"] > 0 or error_of(alone, "Fi_max") is None or alone.get("residual_counted"):
         return None
     found = summary["hertz"]["p_Pa"] / alone["Fi_max"]
     return found, found * math.hypot(alone["error"]["Fi_max"] / alone["Fi_max"], DISPROPORTION * math.log(alone["Fi_max"]))

@@ -19,6 +19,7 @@ from tehl_taichi.scene.refinement import finer_grid_option, zoom_option
 from tehl_taichi.values.coded_text import Reason, reasons_of
 from tehl_taichi.values.coded_warning import coded_warning, unique, with_data
 from tehl_taichi.values.digits import micrometres, number_of, with_error
+from tehl_taichi.values.summary_values import error_of
 
 STILL = 0.01  # of the largest plastic strain: a passage that adds less has run in
 ABOVE = 0.03  # of the largest pressure of a run: a window with so much more would make more steel flow
@@ -199,7 +200,7 @@ def running_in(store, summary):
 def _beyond_run_in(scene, zoom, found):
     """Warning about a window: steel flowed on the grid of the run; found: numbers of the run-in."""
     p, now, change = zoom["base"]["p_max_Pa"], zoom["p_max_Pa"], found["surface_change_max_m"] * 1e9
-    error = found.get("error", {}).get("surface_change_max_m")
+    error = error_of(found, "surface_change_max_m")
     size = with_error(change, None if error is None else error * 1e9, "nm")
     text = ("the error bars of the zoom window do not contain that of the run-in, whose steel flowed on the grid of the run "
             f"(surface change {size}{', error unknown' * (error is None)})")

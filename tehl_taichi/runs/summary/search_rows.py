@@ -8,6 +8,7 @@ from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.runs.summary.summary_row import SummaryRow, at_depth, depth_text, row_of
 from tehl_taichi.scene.feature_wording import range_words
 from tehl_taichi.values.digits import micrometres, number_of
+from tehl_taichi.values.summary_values import error_of
 
 SURFACE, BELOW, RESOLVED = "at the surface", "below it", "while resolved"  # parts of a search
 
@@ -188,7 +189,7 @@ def _local_rows(deep):
 
 def _judged_stress(part, criterion):
     """Row of the stress behind an index, with the relative error of the index."""
-    Fi, bar, stress = part["Fi_max"], part.get("error", {}).get("Fi_max"), part["findley_stress_max_Pa"]
+    Fi, bar, stress = part["Fi_max"], error_of(part, "Fi_max"), part["findley_stress_max_Pa"]
     return replace(_stress(f"{criterion} stress", stress), error=abs(bar / Fi) * stress if bar is not None and Fi else None)
 
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from tehl_taichi.values.digits import micrometres, with_error
 from tehl_taichi.values.summary_units import nothing_of
+from tehl_taichi.values.summary_values import error_of
 
 
 @dataclass(frozen=True)
@@ -30,13 +31,13 @@ class SummaryRow:
 
 def row_of(values, key, what, factor=1, unit="", **more):
     """SummaryRow of one of the values with its error."""
-    return SummaryRow(what, quantity(values, key, factor, unit), values[key], error=values.get("error", {}).get(key),
+    return SummaryRow(what, quantity(values, key, factor, unit), values[key], error=error_of(values, key),
                       nothing=nothing_of(key), **more)
 
 
 def quantity(values, name, factor=1, unit=""):
     """Text 'value ± error unit' of one of the values; three digits if the error is not known."""
-    value, error = values[name] * factor, values.get("error", {}).get(name)
+    value, error = values[name] * factor, error_of(values, name)
     if error is None:
         return f"{with_error(value, None, unit, 3)} (error unknown)"
     return with_error(value, error * factor, unit)

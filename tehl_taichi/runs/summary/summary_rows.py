@@ -12,6 +12,7 @@ from tehl_taichi.runs.summary import life, limit_meaning
 from tehl_taichi.runs.summary.search_rows import alone_rows, rows_of_fatigue
 from tehl_taichi.runs.summary.summary_row import SummaryRow, at_depth, quantity, row_of
 from tehl_taichi.values.digits import number_of, with_error
+from tehl_taichi.values.summary_values import error_of
 
 HEIGHTS = ("Sa_m", "Sq_m", "Sz_m", "Ra_m", "Rq_m", "Rz_m")
 
@@ -92,7 +93,7 @@ def _peclet_rows(summary):
 def _heat_rows(when, values):
     if "film_max_C" not in values:
         return []
-    errors = [values.get("error", {}).get(key) for key in HEAT]
+    errors = [error_of(values, key) for key in HEAT]
     each, once = (" (error unknown)", "") if any(error is not None for error in errors) else ("", " (errors unknown)")
     largest = " / ".join(_temperature(values[key], error, each) for key, error in zip(HEAT, errors))
     return [SummaryRow(f"{when} film / surface a / surface b, largest", f"{largest} °C{once}")]
@@ -169,7 +170,7 @@ def contact_share(t, key=CONTACT):
     """Text of the largest share of solid contact in the load, or in the area (key AREA): none, with its error, or as an upper
     bound that this grid allows.
     """
-    share, error = t[key], t.get("error", {}).get(key)
+    share, error = t[key], error_of(t, key)
     if share == 0:
         return "none"
     return f"{share:.2%} at most, not resolved" if error is None else f"{quantity(t, key, 100)} % at most"

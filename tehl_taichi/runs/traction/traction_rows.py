@@ -4,9 +4,9 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tehl_taichi.runs.table_column import error_of, value_at
 from tehl_taichi.values.coded_warning import counted
 from tehl_taichi.values.digits import number_of, part_of, printed_unit
+from tehl_taichi.values.summary_values import error_of, value_at
 
 if TYPE_CHECKING:
     from tehl_taichi.runs.sweep.study_table import Study

@@ -12,8 +12,9 @@ from tehl_taichi.fatigue.worst_point import on_circle
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.digits import micrometres
+from tehl_taichi.values.summary_values import error_of
 from tehl_taichi.view.figures import distribution_figure, palette
-from tehl_taichi.view.figures.index_text import answer_points, at_points, error_of, index_text, judged_text, mpa
+from tehl_taichi.view.figures.index_text import answer_points, at_points, index_text, judged_text, mpa
 from tehl_taichi.view.figures.limit_line import crosses_limit, handle, limit_line, line_words
 from tehl_taichi.view.figures.map_panels import bar, mirrored, shade
 from tehl_taichi.view.figures.search_data import beside_worst
@@ -100,7 +101,7 @@ def _layer(found, depth, Fi):
 
 def _worst(found, where, Fi, summary, history):
     return DrawnLayer(where, Fi, (summary["x_m"], summary["y_m"]), summary["surface_angle_deg"], history["normal"],
-                 error_of(summary), found.when)
+                 error_of(summary, "Fi_max"), found.when)
 
 
 def _searched(found):

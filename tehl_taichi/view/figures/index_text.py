@@ -4,6 +4,7 @@ import math
 
 from tehl_taichi.fatigue.judged_layers import judged_points, over
 from tehl_taichi.values.digits import decimals
+from tehl_taichi.values.summary_values import error_of
 
 PART = "while the grid resolves the pressure"
 REST = "whole passage, later pressures not resolved"
@@ -23,14 +24,9 @@ def resolved_words(found, whose="feature"):
     return f"{PART} ({whose} up to {found['to_x_a']:.2f} a)"
 
 
-def error_of(found):
-    """Error of the largest index in a summary, at or below the surface; None if it is not known."""
-    return found.get("error", {}).get("Fi_max")
-
-
 def largest(found):
     """Text of the largest index of such a summary."""
-    return index_text(found["Fi_max"], error_of(found))
+    return index_text(found["Fi_max"], error_of(found, "Fi_max"))
 
 
 def answer_points(found):

@@ -47,7 +47,7 @@ def number_of(ring, name):
 
 @pytest.mark.parametrize("row", bearing_table.ROWS, ids=lambda row: row.name)
 def test_a_row_shows_the_number_of_its_name_in_the_unit_of_its_label(loaded, row):
-    assert row.factor == FACTORS.get(row.label.split()[-1], 1)
+    assert row.factor == FACTORS.get(row.head.split()[-1], 1)
     for ring in loaded.rings.values():
         if row.name not in ("lambda", "sliding_loss_W", "Fi_judged", "contact"):
             value, error = number_of(ring, row.name)

@@ -85,6 +85,7 @@ def test_figure_and_page_follow_the_angle(cycle):
     assert page.answer.headline == "The smallest film is 0.0600 ± 0.0010 µm, at -20 deg."
     assert page.answer.doubts[1].startswith("3 of 5 angles have no result") and "cam-0" in page.figures
     assert cam_page.warnings(cycle) == ["-20 deg, 20 deg: thick film"]
+    assert page.answer.doubts[2:] == ("Number of warnings, listed below: 1.",)
     drawn = [line.lines[0].get_data() for line in axes[0].containers]
     for (x, y), trace in zip(drawn, page.figures["cam-0"].traces, strict=True):
         assert list(x) == list(trace["x"]) and list(y) == pytest.approx(
