@@ -10,11 +10,6 @@ from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
 
-def register(app):
-    """Add the command to the app."""
-    app.command()(animate)
-
-
 def animate(
     store: Path = typer.Argument(..., help="store of a run with a feature, finished or not"),
     out: Optional[Path] = typer.Option(None, help="file to write (default: beside the store)"),

@@ -14,12 +14,6 @@ from tehl_cli.shared_options import sharing
 from tehl_cli.stdout import print_json, put
 
 
-def register(app):
-    """Add the commands to the app."""
-    app.command()(bearing)
-    app.command()(roller)
-
-
 @sharing(2, loads, contacts)
 def bearing(
     which: str = typer.Argument(..., metavar="DESIGNATION", help="designation (6206), a TOML file, or any name with own "

@@ -31,10 +31,12 @@ def accuracy(
 
     Examples: `tehl bench accuracy --quick` · `tehl bench accuracy --only coverage --threads 1`
     """
+    from tehl_taichi.profiles.coverage import PARTS
+
     from tehl_taichi.engine import runtime
     from tehl_taichi.values.checks import choice
 
-    choice("--only", only, (None, "errors", "coverage", "exits", "roughness"))
+    choice("--only", only, (None, "errors", *PARTS))
     if judge or only not in (None, "errors"):
         say_idle(context, "no errors are computed", "keep")
     elif keep:
@@ -44,7 +46,7 @@ def accuracy(
     if only == "errors":
         say_idle(context, "no error bars are judged", "judge")
     runtime.start(threads=threads)
-    found, name = {}, only if only in ("exits", "roughness") else "coverage"
+    found, name = {}, only if only and only != "errors" else "coverage"
     errors = Results(out, "accuracy", force, write=write) if only in (None, "errors") and not judge else None
     bars = Results(out, name, force, kept=("json",) if judge else (), write=write) if only != "errors" else None
     if errors:

@@ -8,24 +8,8 @@ from tehl_cli.bench_accuracy import accuracy
 from tehl_cli.bench_options import FORCE, JSON, OUT, QUICK, THREADS, WORKERS, WRITE, Heat, cores, folder
 from tehl_cli.bench_stability import stability
 from tehl_cli.live_display import say
+from tehl_cli.single_options import Command
 from tehl_cli.suite_results import Results, table, texts
-
-
-def register(app):
-    """Add the group of commands to the app."""
-    bench = typer.Typer(no_args_is_help=True, help="Run a benchmark suite. Each suite prints a table; its numbers do "
-                                                   "not change the exit code.")
-    bench.command()(stability)
-    bench.command()(conclusions)
-    bench.command()(verdict)
-    bench.command()(cracks)
-    bench.command()(accuracy)
-    bench.command()(speed)
-    bench.command()(zoom)
-    bench.command()(scaling)
-    bench.command()(sweep)
-    bench.command()(profile)
-    app.add_typer(bench, name="bench")
 
 
 def conclusions(
@@ -82,7 +66,6 @@ def verdict(
     Example: `tehl bench verdict`
     """
     from tehl_cli.tables import list_table
-    from tehl_taichi.profiles import measure
     from tehl_taichi.profiles import verdict as suite
 
     from tehl_taichi.values.checks import choice
@@ -91,7 +74,7 @@ def verdict(
         choice("--only", name, suite.choices())
     results = Results(out, "verdict", force, more=("md",), write=write)
     for rows in suite.run(out, quick, say, workers, threads, only):  # those so far are kept, whatever comes
-        measure.save(out, "verdict", measure.result([suite.plain_row(row) for row in rows], note=suite.NOTE))
+        results.keep([suite.plain_row(row) for row in rows], note=suite.NOTE)
         results.page(suite.page(rows))
         if only:
             results.documented(suite.COLUMNS, suite.texts(rows), keys=2)
@@ -114,11 +97,10 @@ def cracks(
     """Compute crack paths from the loads of a passage, with errors. Example: `tehl bench cracks --quick`"""
     from tehl_cli.tables import list_table
     from tehl_taichi.profiles import cracks as suite
-    from tehl_taichi.profiles import measure
 
     results = Results(out, "cracks", force, more=("md",))
     for rows in suite.run(out, quick, say, workers, threads):  # those so far are kept, whatever comes
-        measure.save(out, "cracks", measure.result([vars(row) for row in rows]))
+        results.keep([vars(row) for row in rows])
         results.page(suite.page(rows))
     if not as_json:
         list_table("crack paths", suite.COLUMNS, [(row.case, *suite.cells(row)) for row in rows])
@@ -135,12 +117,11 @@ def zoom(
 ):
     """Compare runs with a fine window to runs that are as fine everywhere. Example: `tehl bench zoom --quick`"""
     from tehl_cli.tables import list_table
-    from tehl_taichi.profiles import measure
     from tehl_taichi.profiles import zoom as suite
 
     results = Results(out, "zoom", force, write=write)
     for rows in suite.run(out, quick, threads, say):  # those so far are kept, whatever comes
-        measure.save(out, "zoom", measure.result([vars(row) for row in rows]))
+        results.keep([vars(row) for row in rows])
     lines = suite.lines(rows)
     if not as_json:
         list_table("fine grid everywhere: fine window (off by %)", suite.COLUMNS, lines)
@@ -212,3 +193,9 @@ def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: b
     say("largest possible gains, ms per step: " + ", ".join(f"{what} {ms:.1f}" for what, ms in suite.gaps(stages, kernels)))
     rows = [{"kind": kind, **row} for kind, part in (("stage", stages), ("kernel", kernels)) for row in part]
     results.finish(rows, lambda plt: suite.chart(plt, stages, kernels, numbers["step_s"]), as_json, **numbers)
+
+
+bench = typer.Typer(no_args_is_help=True, help="Run a benchmark suite. Each suite prints a table; its numbers do not change "
+                                               "the exit code.")
+for _suite in (stability, conclusions, verdict, cracks, accuracy, speed, zoom, scaling, sweep, profile):
+    bench.command(cls=Command)(_suite)

@@ -27,13 +27,15 @@ def write(name, columns, rows, keys=0):
 
     rows: texts; keys: number of leading cells that identify a row; old rows that are not among the new ones stay.
     """
+    from tehl_taichi.profiles import measure
+
     from tehl_taichi.disk import files
 
     before, now, after = _split_page(name)
     old = _rows(now)[2:] if keys else []
-    lines = [columns, ["---"] * len(columns), *_merged(old, [list(map(_cell, row)) for row in rows], keys)]
-    table = "\n".join(f"| {' | '.join(line)} |" for line in lines)
-    partly = " Other rows are of an earlier command." if len(lines) > len(rows) + 2 else ""
+    lines = _merged(old, [list(map(_cell, row)) for row in rows], keys)
+    table = "\n".join(measure.markdown(columns, lines))
+    partly = " Other rows are of an earlier command." if len(lines) > len(rows) else ""
     with files.disk_errors(of(name)):
         files.replace(of(name), f"{before}\n{_caption(partly)}\n\n{table}\n{after}".encode())
 

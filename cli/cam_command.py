@@ -13,11 +13,6 @@ from tehl_cli.scene_options import changes_of
 from tehl_cli.stdout import print_json, put
 
 
-def register(app):
-    """Add the command to the app."""
-    app.command()(cam)
-
-
 def cam(
     table: Path = typer.Argument(..., help="CSV: angle_deg, load_N_per_mm, R_mm (or R_a_mm and R_b_mm), u_a_m_s, u_b_m_s"),
     context: typer.Context = None,

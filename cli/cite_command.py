@@ -6,10 +6,6 @@ TITLE = "tehl_taichi: transient elastohydrodynamic contacts with surface feature
 AUTHORS = "the tehl_taichi developers"
 
 
-def register(app):
-    app.command()(cite)
-
-
 def cite():
     """Print the BibTeX entry of this version, and of the thesis behind the model.
 

@@ -13,11 +13,6 @@ from tehl_cli.stdout import print_json, put
 LONG = 60  # letters of a value, as of the contents of a table
 
 
-def register(app):
-    """Add the command to the app."""
-    app.command()(compare)
-
-
 def compare(
     stores: List[Path] = typer.Argument(..., help="stores of two or more runs, finished or not; or folders of flanks, bearings "
                                                   "or cams, or studies over the same keys"),

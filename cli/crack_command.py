@@ -11,11 +11,6 @@ from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json, put
 
 
-def register(app):
-    """Add the command to the app."""
-    app.command()(crack)
-
-
 def crack(
     store: Path = typer.Argument(..., help="store of a run with a feature on y = 0, finished or not"),
     context: typer.Context = None,

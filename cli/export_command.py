@@ -7,11 +7,6 @@ import typer
 from tehl_cli.stdout import put
 
 
-def register(app):
-    """Add the command to the app."""
-    app.command()(export)
-
-
 def export(
     store: Path = typer.Argument(..., help="store of a run, finished or not"),
     format: str = typer.Option("csv", "--format", help="csv (tables), netcdf (one file) or vtk (a time series for ParaView)"),

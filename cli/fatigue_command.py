@@ -10,11 +10,6 @@ from tehl_cli.live_display import Live, say
 from tehl_cli.stdout import print_json
 
 
-def register(app):
-    """Add the command to the app."""
-    app.command()(fatigue)
-
-
 @with_fatigue_options
 def fatigue(
     store: Path = typer.Argument(..., help="store of a run with a feature, finished or not"),

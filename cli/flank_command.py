@@ -13,11 +13,6 @@ from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 
 
-def register(app):
-    """Add the command to the app."""
-    app.command()(flank)
-
-
 def flank(
     gear: str = typer.Argument("fzg-c", help="fzg-c, fzg-a, a TOML file, or a table of positions (CSV)"),
     context: typer.Context = None,

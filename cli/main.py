@@ -5,27 +5,25 @@ from typing import Any
 
 import typer
 import typer.core
-from tehl_cli import (
-    animate_command,
-    bearing_command,
-    bench_command,
-    cam_command,
-    cite_command,
-    compare_command,
-    crack_command,
-    export_command,
-    fatigue_command,
-    flank_command,
-    report_command,
-    run_commands,
-    show_commands,
-    steels_command,
-    sweep_command,
-    traction_command,
-)
+from tehl_cli.animate_command import animate
+from tehl_cli.bearing_command import bearing, roller
+from tehl_cli.bench_command import bench
+from tehl_cli.cam_command import cam
+from tehl_cli.cite_command import cite
+from tehl_cli.compare_command import compare
+from tehl_cli.crack_command import crack
 from tehl_cli.entry import main
+from tehl_cli.export_command import export
+from tehl_cli.fatigue_command import fatigue
+from tehl_cli.flank_command import flank
 from tehl_cli.key_as_option import with_hint
+from tehl_cli.report_command import report
+from tehl_cli.run_commands import resume, run, zoom
+from tehl_cli.show_commands import doctor, laws, new, oils, plot, scenes, show
 from tehl_cli.single_options import Command
+from tehl_cli.steels_command import steels
+from tehl_cli.sweep_command import sweep
+from tehl_cli.traction_command import traction
 
 from tehl_taichi.errors import Interrupted, stopped, typed_options
 
@@ -77,10 +75,10 @@ def _with_value(error):
 
 
 # {heading of the help: its commands}, in this order
-PANELS = {"Compute": ("run", "resume", "zoom", "sweep", "traction", "flank", "bearing", "roller", "cam", "fatigue", "crack"),
-          "Show results": ("show", "plot", "report", "compare", "animate", "export"),
-          "Scene files and choices": ("new", "scenes", "oils", "steels", "laws"),
-          "This program": ("doctor", "bench", "cite")}
+PANELS = {"Compute": (run, resume, zoom, sweep, traction, flank, bearing, roller, cam, fatigue, crack),
+          "Show results": (show, plot, report, compare, animate, export),
+          "Scene files and choices": (new, scenes, oils, steels, laws),
+          "This program": (doctor, cite)}
 
 app = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False,
                   rich_markup_mode="rich")
@@ -106,42 +104,7 @@ def _print_version():
     raise typer.Exit()
 
 
-run_commands.register(app)
-sweep_command.register(app)
-traction_command.register(app)
-show_commands.register(app)
-animate_command.register(app)
-steels_command.register(app)
-fatigue_command.register(app)
-crack_command.register(app)
-flank_command.register(app)
-bearing_command.register(app)
-cam_command.register(app)
-compare_command.register(app)
-export_command.register(app)
-report_command.register(app)
-bench_command.register(app)
-cite_command.register(app)
-
-
-def _use_command_class():
-    """Let all commands, also those of groups, parse their options alike."""
-    for group in filter(None, (app, *(one.typer_instance for one in app.registered_groups))):
-        for command in group.registered_commands:
-            command.cls = Command
-
-
-def _sort():
-    """Sort the commands in the order of PANELS, each below its heading."""
-    panels = {name: panel for panel, names in PANELS.items() for name in names}
-    for command in app.registered_commands:
-        function: Any = command.callback
-        command.name = command.name or function.__name__
-        command.rich_help_panel = panels[command.name]
-    app.registered_commands.sort(key=lambda command: list(panels).index(str(command.name)))
-    for group in app.registered_groups:
-        group.rich_help_panel = panels[str(group.name)]
-
-
-_use_command_class()
-_sort()
+for _panel, _functions in PANELS.items():
+    for _function in _functions:
+        app.command(cls=Command, rich_help_panel=_panel)(_function)
+app.add_typer(bench, name="bench", rich_help_panel="This program")

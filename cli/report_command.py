@@ -11,11 +11,6 @@ from tehl_cli.live_display import Live
 from tehl_cli.stdout import put
 
 
-def register(app):
-    """Add the command to the app."""
-    app.command()(report)
-
-
 @with_fatigue_options
 def report(
     store: Path = typer.Argument(..., help="store of a run (finished or not), a study, or the folder of a flank, bearing "

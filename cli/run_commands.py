@@ -16,13 +16,6 @@ from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
 
 
-def register(app):
-    """Add the commands to the app."""
-    app.command()(run)
-    app.command()(resume)
-    app.command()(zoom)
-
-
 def run(
     scene: str = typer.Argument("gear", help="built-in name (see `tehl scenes`), TOML file, or store to repeat"),
     context: typer.Context = None,

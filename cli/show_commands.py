@@ -13,12 +13,6 @@ from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
 
 
-def register(app):
-    """Add the commands to the app."""
-    for command in (scenes, oils, laws, new, show, plot, doctor):
-        app.command()(command)
-
-
 def scenes():
     """List the built-in scenes and the feature shapes."""
     from tehl_cli.tables import list_table

@@ -1,11 +1,6 @@
 """tehl steels: the named steels."""
 
 
-def register(app):
-    """Add the command to the app."""
-    app.command()(steels)
-
-
 def steels():
     """List the named steels with their numbers and sources."""
     from tehl_cli.tables import list_table

@@ -39,15 +39,21 @@ class Results:
         """Path of the file with that ending."""
         return self.folder / f"{self.name}.{ending}"
 
+    def keep(self, rows, **more):
+        """Write NAME.json (machine, rows and further data) so far; returns its JSON object."""
+        from tehl_taichi.profiles import measure
+
+        found = measure.result(rows, **more)
+        measure.save(self.folder, self.name, found)
+        return found
+
     def finish(self, rows, chart, as_json, **more):
         """Write NAME.json (machine, rows and further data) and NAME.png; print the JSON object if requested.
 
         chart(plt): the figure.
         """
-        from tehl_taichi.profiles import measure
-
-        found = measure.result(rows, **more)
-        say(f"wrote {measure.save(self.folder, self.name, found)}")
+        found = self.keep(rows, **more)
+        say(f"wrote {self.file('json')}")
         self.picture(chart)
         if as_json:
             print_json(found)

@@ -14,11 +14,6 @@ from tehl_taichi.values.digits import number_of
 MANY = 1000  # more cases than this need --yes
 
 
-def register(app):
-    """Add the command to the app."""
-    app.command()(sweep)
-
-
 def sweep(
     scene: str = typer.Argument(..., help="built-in name, TOML scene, TOML study file, or study to resume"),
     over: Optional[List[str]] = typer.Option(None, "--over", help="key=values with values a,b,c or low:high:N or "

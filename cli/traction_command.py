@@ -14,11 +14,6 @@ from tehl_cli.stdout import print_json, put
 LIST = "values a,b,c or low:high:N or low:high:N:log, units allowed: 0:50%:11"
 
 
-def register(app):
-    """Add the command to the app."""
-    app.command()(traction)
-
-
 def traction(
     scene: str = typer.Argument(..., help="built-in name, TOML scene or store; its features are left out"),
     context: typer.Context = None,

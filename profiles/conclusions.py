@@ -27,7 +27,6 @@ PARTS = "to 0.5 a", "whole"  # of the passage, about which there are statements
 SIDES = ("all", "to 0.5 a"), ("all", "whole"), ("no thermal stress", "whole"), ("pressure", "whole")  # of those about the slip
 # what a table says of an error that is not known, by the code of the reason
 UNKNOWN = {"exit": "exit not resolved", "peak": "peak not resolved", "rival": "a rival grows"}
-BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # both are worked out here, for all grids and loads together
 
 
 @dataclass(frozen=True)
@@ -112,7 +111,7 @@ def _of_body(name, description, body, passages, grid):
 
 
 def _sized(description, nx, ny):
-    return description.replace(**{"grid.nx": nx, "grid.ny": ny, "output.every": max(1, nx // EVERY), **BARE})
+    return description.replace(**{"grid.nx": nx, "grid.ny": ny, "output.every": max(1, nx // EVERY), **measure.BARE})
 
 
 def error_of(key, passages, body="a"):
@@ -239,12 +238,10 @@ COLUMNS = [*(("all", window) for window in WINDOWS), ("no thermal stress", "whol
 
 def page(rows, judged, scene_, columns=COLUMNS):
     """Markdown of the table and the verdicts."""
-    lines = ["| case | body | grid | " + " | ".join(_title(*column) for column in columns) + " |",
-             "|---" * (len(columns) + 3) + "|"]
-    for r in rows:
-        lines.append(f"| {r.name} | {r.body} | {r.grid} | " + " | ".join(cells(r, columns)) + " |")
-    lines += ["", "| statement | verdict | figures |", "|---|---|---|"]
-    lines += [f"| {statement} | **{verdict}** | {figures} |" for statement, verdict, figures in judged]
+    lines = measure.markdown(("case", "body", "grid", *(_title(*column) for column in columns)),
+                             [(r.name, r.body, r.grid, *cells(r, columns)) for r in rows])
+    lines += ["", *measure.markdown(("statement", "verdict", "figures"), [(what, f"**{verdict}**", figures)
+                                                                         for what, verdict, figures in judged])]
     f = scene_.fatigue
     return "\n".join([f"Findley stress in MPa (kappa_F = {f.kappa:g}); Fi = f / {f.endurance / 1e6:g} MPa.", "", *lines, ""])
 
@@ -259,13 +256,10 @@ def plain_row(row):
 def chart(plt, rows):
     """Findley stress of each case over the whole passage, at the surface and below it, with errors."""
     shown = [row for row in rows if not row.reason]
-    figure, ax = plt.subplots(figsize=(8, 0.35 * len(shown) + 1.4), constrained_layout=True)
-    at = np.arange(len(shown))
+    figure, ax, at = measure.chart_of_rows(plt, [f"{row.name}, {row.body}" for row in shown])
     for shift, key, label in ((-0.15, ("all", "whole"), "surface"), (0.15, DEEP["whole"], "below it")):
         errors = [row.errors[key] / 1e6 for row in shown]
         ax.errorbar([row.values[key] / 1e6 for row in shown], at + shift, xerr=errors, fmt="o", ms=4, label=label)
-    ax.set(xlabel="Findley stress, MPa (no bar: error not known)", yticks=at)
-    ax.set_yticklabels([f"{row.name}, {row.body}" for row in shown])
-    ax.invert_yaxis()
+    ax.set_xlabel("Findley stress, MPa (no bar: error not known)")
     ax.legend()
     return figure

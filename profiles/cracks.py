@@ -16,7 +16,6 @@ from tehl_taichi.runs.sweep import pool
 from tehl_taichi.scene import scene
 
 GRIDS, QUICK_GRIDS = ((128, 32), (256, 64)), ((32, 8), (64, 16))
-BARE = {"fatigue.on": False, "numerics.estimate_error": False}  # errors of cracks are worked out here
 SLIPS = {"dedendum": -0.12, "pitch line": 0.0, "addendum": 0.12}
 REFERENCE = "asperity 1.5 um, 200 um wide"
 FEATURES = {REFERENCE: {}, "dent 1.5 um, 200 um wide": {"height": -1.5e-6}, "asperity, 100 um wide": {"width": 100e-6},
@@ -81,7 +80,7 @@ def _stores(name, description, folder, grids, progress):
         progress(f"{name}: {nx} x {ny} cells")
         try:
             path = folder / f"{name.replace(',', '').replace(' ', '-')}-{nx}.zarr"
-            found.append(run_or_resume(description.replace(**{"grid.nx": nx, "grid.ny": ny, **BARE}), path).store)
+            found.append(run_or_resume(description.replace(**{"grid.nx": nx, "grid.ny": ny, **measure.BARE}), path).store)
         except NotConverged as error:
             progress(f"{name}, {nx} x {ny} cells: {error}")
             found = []
@@ -147,19 +146,16 @@ COLUMNS = ("case", "side", *(title for title, *_ in NUMBERS.values()), "trajecto
 
 def page(rows):
     """Markdown of the table."""
-    lines = ["| " + " | ".join(COLUMNS) + " |", "|---" * len(COLUMNS) + "|"]
-    return "\n".join(lines + [f"| {row.case} | " + " | ".join(cells(row)) + " |" for row in rows]) + "\n"
+    return "\n".join([*measure.markdown(COLUMNS, [(row.case, *cells(row)) for row in rows]), ""])
 
 
 def chart(plt, rows):
     """Stress intensities of the cracks that open, with what the coarser grid changes."""
     shown = [row for row in rows if row.numbers]
-    figure, ax = plt.subplots(figsize=(8, 0.35 * len(shown) + 1.4), constrained_layout=True)
-    at = np.arange(len(shown))
+    figure, ax, at = measure.chart_of_rows(plt, [f"{row.case}, {row.side}" for row in shown])
     for shift, key in ((-0.2, "K_first"), (0.0, "K_later"), (0.2, "K_II")):
         values, changes, _ = (np.array([row.numbers[key][n] for row in shown], float) / 1e6 for n in range(3))
         ax.errorbar(values, at + shift, xerr=changes, fmt="o", ms=4, label=NUMBERS[key][0])
-    ax.set(xlabel="MPa m^0.5", yticks=at, yticklabels=[f"{row.case}, {row.side}" for row in shown])
-    ax.invert_yaxis()
+    ax.set_xlabel("MPa m^0.5")
     ax.legend()
     return figure

@@ -34,7 +34,6 @@ VARIANTS = {"default": {}, "case": CASE, "residual": RESIDUAL, "run-in": RUN_IN,
 MEANS = {"default": "as it is", "case": "case profile", "residual": "residual stress −400 MPa",
          "run-in": "run-in, 2.2 GPa", "all": "all three"}
 NOTE = "run-in: three passages at most, both bodies of steel that flows at 2.2 GPa and does not harden"
-BARE = {"fatigue.on": False, "numerics.estimate_error": False}
 ALONE = {"fatigue.on": True, "numerics.estimate_error": True}
 QUICK = {"grid.nx": 64, "grid.ny": 16}
 FINER = {"dent": {"grid.nx": 512, "grid.ny": 32}}  # its exit is not resolved on 256 columns
@@ -152,7 +151,8 @@ def _passages(base, folder, progress, variant=""):
         if progress:
             progress(f"{base.name}{variant}: {one.grid.nx} x {one.grid.ny} cells")
         try:
-            found = run_or_resume(one.replace(**BARE), folder / f"{base.name}{variant}-{one.grid.nx}x{one.grid.ny}.zarr").store
+            path = folder / f"{base.name}{variant}-{one.grid.nx}x{one.grid.ny}.zarr"
+            found = run_or_resume(one.replace(**measure.BARE), path).store
         except Error:
             if own is None:
                 raise
@@ -259,9 +259,7 @@ def texts(rows):
 
 def page(rows):
     """Markdown of the table."""
-    lines = [f"| {' | '.join(COLUMNS)} |", "|" + "---|" * len(COLUMNS)]
-    lines += [f"| {' | '.join(line)} |" for line in texts(rows)]
-    return "\n".join([*lines, "", *notes(rows), f"{NOTE[0].upper()}{NOTE[1:]}."])
+    return "\n".join([*measure.markdown(COLUMNS, texts(rows)), "", *notes(rows), f"{NOTE[0].upper()}{NOTE[1:]}."])
 
 
 def notes(rows):

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tehl_taichi.profiles import conclusions, passage_stresses
+from tehl_taichi.profiles import conclusions, measure, passage_stresses
 
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.scene import scene
@@ -160,7 +160,7 @@ def test_a_row_is_computed_once_and_kept(taichi_cpu, tmp_path):
 @pytest.mark.slow
 def test_a_large_store_goes_when_it_has_told(taichi_cpu, tmp_path, monkeypatch):
     """What it told serves the next time, and only for the scene that it tells of."""
-    short = scene("gear").replace(**{"thermal.on": False, "time.steps": 4, "grid.nx": 64, "grid.ny": 16, **conclusions.BARE})
+    short = scene("gear").replace(**{"thermal.on": False, "time.steps": 4, "grid.nx": 64, "grid.ny": 16, **measure.BARE})
     store, kept = tmp_path / "short.zarr", tmp_path / "short.json"
     small = passage_stresses.read_passage(short, store)
     assert store.exists() and not kept.exists()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from rolling import Rolling
-from tehl_taichi.profiles import cracks
+from tehl_taichi.profiles import cracks, measure
 
 from tehl_taichi.crack import growth
 from tehl_taichi.crack.analysis import follow
@@ -62,7 +62,7 @@ ROWS = {  # side: tension (Pa) and its tolerance, place (m), moment (a), lean, c
 def stored(request, taichi_cpu, tmp_path_factory):
     """(slip, store) of the reference scene without thermal stress, as the rows are."""
     srr, nx = request.param
-    grid = {"grid.nx": nx, "grid.ny": nx // 4, "fatigue.thermal_stress": False, **cracks.BARE}
+    grid = {"grid.nx": nx, "grid.ny": nx // 4, "fatigue.thermal_stress": False, **measure.BARE}
     return srr, run_or_resume(scene("gear").replace(srr=srr, **grid), tmp_path_factory.mktemp("crack") / "gear.zarr").store
 
 
