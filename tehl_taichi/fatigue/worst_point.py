@@ -68,8 +68,8 @@ class WorstPoint:
 
 
 def worst_of(points):
-    """The point with the largest index."""
-    return max(points, key=lambda point: point.compared)
+    """The point with the largest index; None without points."""
+    return max(points, key=lambda point: point.compared, default=None)
 
 
 def worse(worst, places, history, f, normals, local):
