@@ -191,7 +191,7 @@ class Measures:
     @classmethod
     def of(cls, heights, steps):
         """Measures of heights (rows, columns), m; steps: distances of points along x and along y (m)."""
-        slope = math.degrees(math.atan(float(np.hypot(*gradients(heights, steps)).max())))
+        slope = math.degrees(math.atan(steepest(heights, steps)))
         return cls(float(heights.min()), float(heights.max()), float(heights.std()), slope)
 
     @property
@@ -199,30 +199,42 @@ class Measures:
         return self.high - self.low
 
 
-def gradients(heights, steps):
-    """Gradients (along x, along y) between neighbours, at all points with neighbours on both axes; 0 along an axis of one
-    point.
+def steepest(heights, steps):
+    """Largest gradient between neighbours: of four points that form a cell, the steepest side along x with the steepest along
+    y, so that it does not depend on the direction of the axes; of a line, its steepest side.
     """
-    along, across = (np.diff(heights, axis=axis) / step for axis, step in zip((1, 0), steps))
-    along = along[:-1] if len(heights) > 1 else along
-    across = across[:, :-1] if heights.shape[1] > 1 else across
-    return (along if along.size else 0 * across), (across if across.size else 0 * along)
+    along, across = (np.abs(np.diff(heights, axis=axis)) / step for axis, step in zip((1, 0), steps))
+    if min(heights.shape) == 1:
+        return float(max(along.max(initial=0.0), across.max(initial=0.0)))
+    return float(np.hypot(np.maximum(along[:-1], along[1:]), np.maximum(across[:, :-1], across[:, 1:])).max())
 
 
 def error_on_grid(heights, along, across):
     """Error (rms) of `heights` on a coarse grid, over their rms: every `along`-th point along x and `across`-th along y is kept
     (not necessarily whole numbers), and the rest interpolated linearly. Above 1 where that shows waves that are not there.
+
+    It is the rms over grids that begin at each corner: a scan and its mirror image have equal errors.
     """
     rms = float(heights.std())
-    seen = _resampled(_resampled(heights, along).T, across).T
-    return float((heights - seen).std()) / rms if rms > 0 else 0.0
+    missed = [float((heights - seen.T).var()) for rows in _from_both_ends(heights, along)
+              for seen in _from_both_ends(rows.T, across)]
+    return math.sqrt(sum(missed) / len(missed)) / rms if rms > 0 else 0.0
+
+
+def _from_both_ends(values, step):
+    """[rows of `values` interpolated from points `step` apart] that begin at the first and at the last point."""
+    if step <= 1 or values.shape[1] == 1:
+        return [values]
+    return [_resampled(values, step), _resampled(values[:, ::-1], step)[:, ::-1]]
 
 
 def _resampled(values, step):
-    """Rows of `values` interpolated from points `step` apart; an incomplete last interval is unchanged."""
-    count = int((values.shape[1] - 1) / step) if step > 1 else 0
+    """Rows of `values` interpolated from points `step` apart; an incomplete last interval is unchanged. Rows shorter than one
+    interval lie between two points, which see nothing of them.
+    """
+    count = int((values.shape[1] - 1) / step)
     if count == 0:
-        return values
+        return 0 * values
     whole = np.arange(int(count * step) + 1)
     coarse = _linear(values, np.minimum(np.arange(count + 1) * step, values.shape[1] - 1))
     out = values.copy()

@@ -10,7 +10,7 @@ FEW = 0.05  # of the points may have a steep side: of a rough surface, or in a w
 LARGEST = 16  # points of a spike: larger and longer ones are scratches, steps or dirt
 INSIDE = 2  # points from the rim of a spike to its middle, at most
 MOST, MOST_NORMAL = 0.99, 2.576  # of the differences; that many standard deviations of normal ones
-SAMPLE = 20000  # points that give the standard deviation
+SAMPLE = 20000  # points that give the standard deviation, about
 NORMAL = 1.4826  # standard deviation over the median of the sizes
 NEAR = np.array([(j, i) for j in (-1, 0, 1) for i in (-1, 0, 1) if (j, i) != (0, 0)])
 
@@ -68,11 +68,20 @@ def _usual_deviation(padded, shape, reach):
 
     The median alone is too small for plateaus with valleys.
     """
-    every = max(1, math.prod(shape) // SAMPLE)
-    at = np.stack(np.unravel_index(np.arange(0, math.prod(shape), every), shape), axis=1)
+    at = _sample(shape)
     found = np.abs(_differences(padded, at, reach))
     middle, most = np.quantile(found[np.isfinite(found)], (0.5, MOST))
     return max(NORMAL * float(middle), float(most) / MOST_NORMAL)
+
+
+def _sample(shape):
+    """Points (rows, columns) of a map of this shape: all, or some at random with their mirror images, so that marks at even
+    distances are not met at one side only, and a mirrored map has the same ones.
+    """
+    if math.prod(shape) < 2 * SAMPLE:
+        return np.argwhere(np.ones(shape, bool))
+    some = np.random.default_rng(0).integers(shape, size=(SAMPLE // 4, 2))
+    return np.concatenate([np.abs(some - (np.array(shape) - 1) * sides) for sides in ((0, 0), (0, 1), (1, 0), (1, 1))])
 
 
 def _differences(padded, at, reach):
