@@ -285,6 +285,12 @@ def _across(scene):
             yield f"feature.{n}.y", "the feature does not vary along y"
 
 
+def _shapes(scene):
+    """Keys of features that have no effect with their other keys."""
+    if scene.transient:
+        yield from ((f"feature.{n}.{key}", why) for n, f in enumerate(scene.features) for key, why in f.kind.idle(f).items())
+
+
 def _steel(scene):
     """Hardening of steel that does not yield."""
     reasons = run_in.elastic_bodies(scene) if scene.runs_in else dict.fromkeys("ab", "no run-in (time.run_in = 0)")
@@ -292,7 +298,8 @@ def _steel(scene):
         yield f"bodies.{name}.hardening", f"steel of body {name} does not flow: {why}"
 
 
-RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _strength, _zoom, _steel, _across)
+RULES = (_rheology, _oil, _temperature, _heat, _expansion_of_bodies, _passage, _fatigue, _strength, _zoom, _shapes, _steel,
+         _across)
 
 
 def changed_keys(scene, changes):

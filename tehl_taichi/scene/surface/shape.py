@@ -71,6 +71,10 @@ class Shape(Entry):
     def check(self, f):
         """Refuse keys that contradict each other. Raises SceneError."""
 
+    def idle(self, f):
+        """{key that it uses, but not with the other keys of this feature: reason}."""
+        return {}
+
     def preview(self, f, scene):
         """Lines printed before a run."""
         return ()

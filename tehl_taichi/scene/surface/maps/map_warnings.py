@@ -60,7 +60,8 @@ def _patch(f):
 
 def _offset(f):
     """Text of the position of the used part in the scan."""
-    moved = [f"{axis} = {_um(offset)} um" for axis, offset in (("x", f.offset_x), ("y", f.offset_y)) if offset]
+    each = zip("xy", (f.offset_x, f.offset_y), f.points)
+    moved = [f"{axis} = {_um(offset)} um" for axis, offset, count in each if offset and count > 1]
     return f" around {', '.join(moved)}" if moved else ""
 
 
@@ -74,7 +75,7 @@ def _taper(f):
 
 def _apart(f):
     """Text of the distances of its points in um: one number if they are equal."""
-    return " x ".join(dict.fromkeys(map(_um, f.steps)))
+    return " x ".join(dict.fromkeys(_um(step) for step, count in zip(f.steps, f.points) if count > 1))
 
 
 def _um(value):

@@ -51,6 +51,10 @@ class Profile(Map):
     def symmetric(self, f):
         return Shape.symmetric(self, f) if not self.across(f) else False
 
+    def idle(self, f):
+        name = "x" if self.across(f) else "y"
+        return dict.fromkeys((f"mirror_{name}", f"offset_{name}"), f"a {f.lay} profile does not vary along {name}")
+
     def place_words(self, row, column):
         return f"point {column}"
 

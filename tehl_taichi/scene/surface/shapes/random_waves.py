@@ -1,5 +1,6 @@
 """Base of shapes that are sums of many waves with random phases; a coarse grid resolves only the long ones."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -55,6 +56,10 @@ class RandomWaves(Patch):
         if lengths[0].max() * SLACK < x or lengths[1].max() * SLACK < y:
             return None
         return replace(f, shortest_x=max(f.shortest_x, x), shortest_y=max(f.shortest_y, y))
+
+    def idle(self, f):
+        return {f"shortest_{name}": f"its waves do not vary along {name}" for name, lengths in zip("xy", self.lengths(f))
+                if math.isinf(lengths.max())}
 
     def check(self, f):
         """Refuse a patch without a length, and one without waves."""

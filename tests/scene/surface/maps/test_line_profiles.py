@@ -132,6 +132,14 @@ def test_a_line_contact_stays_a_line(column):
     assert any("feature.cutoff = " in one and "slopes up to" in one for one in steep.warnings())
 
 
+@pytest.mark.parametrize("lay, axis", [("transverse", "x"), ("longitudinal", "y")])
+def test_the_preview_names_offsets_and_distances_along_its_own_axis(column, lay, axis):
+    keys = {"taper": 20e-6, "lay": lay, "extent_x": 1.2e-4, "extent_y": 1.2e-4, "pixel_y": 5e-6 if axis == "x" else 0.0}
+    f = profile(column, offset_x=4e-5, offset_y=4e-5, **keys)
+    first, _ = f.kind.preview(f, gear_with(f))
+    assert "150 points 2 um apart" in first and f"used around {axis} = 40 um, fading" in first
+
+
 @pytest.mark.parametrize("changes, words", [
     ({"shape": "map"}, "is a line profile of 150 heights; set feature.shape = 'profile'"),
     ({"transpose": True}, "needs shape = 'map'"), ({"lay": "across"}, "transverse, longitudinal"),
