@@ -21,8 +21,8 @@ def _peaks(scene, features):
     reach = [f.reach for f in features if np.isfinite(f.reach)]
     ends = [(f.x - first.x - r, f.x - first.x + r) for f, r in zip(features, reach)] or [(-s.a, s.a)]
     x = np.linspace(min(low for low, _ in ends), max(high for _, high in ends), POINTS)
-    y = np.linspace(-wide, wide, POINTS)
-    along = _heights(features, x[:, None], np.linspace(-wide, wide, LINES)[None])
+    y, lines = (np.linspace(-wide, wide, count) - first.y for count in (POINTS, LINES))
+    along = _heights(features, x[:, None], lines[None])
     across = _heights(features, np.linspace(x[0], x[-1], LINES)[None], y[:, None])
     return max(_most(np.abs(heights)) for heights in (along, across))
 

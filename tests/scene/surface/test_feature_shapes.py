@@ -97,6 +97,15 @@ def test_ground_patches_have_their_Ra_on_average(lay):
     assert np.mean(found, axis=0) == pytest.approx(0.3 * UM, rel=0.08)
 
 
+def test_ground_without_a_length_is_as_long_as_wide():
+    """Its heights are those of an equal length, without a kink in the middle."""
+    x, y = np.linspace(-250, 250, 101)[:, None] * UM, np.linspace(-40, 40, 161) * UM
+    one, other = (Feature(**{**GROUND, "length": length}).height_at(x, y) for length in (0.0, GROUND["width"]))
+    np.testing.assert_array_equal(one, other)
+    bent = np.abs(np.diff(one, n=2, axis=1)).max(axis=0)
+    assert bent[79] < 1.5 * np.delete(bent, 79).max()
+
+
 def test_marks_lie_along_the_longer_of_width_and_length():
     x, y = np.linspace(-250, 250, 251)[:, None] * UM, np.linspace(50, 550, 251) * UM
     across, along = (Feature(**{**GROUND, **lay}).height_at(x, y) for lay in ({}, {"width": 400 * UM, "length": 40 * UM}))

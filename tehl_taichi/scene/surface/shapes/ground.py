@@ -26,7 +26,7 @@ class Ground(RandomWaves):
         phase_x, phase_y = rng.uniform(0, 2 * np.pi, (2, k_x.size, k_y.size)) * [[[1.0]], [[float(k_y[0] > 0)]]]
         size = rng.standard_normal((k_x.size, k_y.size))
         size *= RMS * f.height / np.sqrt((size**2).sum() * (0.25 if k_y[0] > 0 else 0.5))
-        even = np.hypot(y, BEND * f.length) if k_y[0] > 0 else y
+        even = np.hypot(y, BEND * (f.length or f.width)) if k_y[0] > 0 else y
         return sum(size[p, q] * np.cos(k_x[p] * x + phase_x[p, q]) * np.cos(k_y[q] * even + phase_y[p, q])
                    for p in along_x for q in along_y)
 
