@@ -95,7 +95,7 @@ def scan_keys(scan, unit="", pixel=0.0):
     table = height_map.table_of(Path(scan))
     pixel = pixel or stated_keys.likely_distance(table.stated.x)
     return dict(shape="profile" if height_map.is_profile(table.values) else "map", file=str(scan), pixel=pixel, level="form",
-                unit=unit or table.stated.unit, taper=_taper(table.values.shape, pixel, pixel))
+                unit=unit or table.stated.unit, taper=_taper(table, pixel))
 
 
 def _refusal(path, text):
@@ -156,7 +156,7 @@ def _text(path, f, base, scan, table, unit, pixel, pixel_y, lay):
     numbers = dict(radius=f.contact.radius_x, load=float(f"{f.load:.4g}"), u_a=round(f.operation.u_a, 6),
                    u_b=round(f.operation.u_b, 6), temperature=f.operation.temperature, kappa=f.fatigue.kappa, file=place,
                    shape="profile" if profile else "map", unit=unit, pixel=pixel,
-                   taper=_taper(table.values.shape, pixel, pixel_y or pixel))
+                   taper=_taper(table, pixel, pixel_y))
     return HEAD.format(base=base, oil=f.oil.name, limit="380e6", header=_header(table), radius_y=_radius_y(f.contact),
                        body_a=_unless_steel(f.body_a), body_b=_unless_steel(f.body_b),
                        load_about=LINE if f.contact.kind == "line" else "N",
@@ -175,9 +175,12 @@ def _radius_y(contact):
     return f"radius_y = {toml_value(contact.radius_y):<12}  # m: reduced radius across\n"
 
 
-def _taper(shape, pixel, pixel_y):
-    """Taper in m: whole micrometres, at most an eighth of the shorter side."""
-    side = min((count - 1) * step for count, step in zip(shape[::-1], (pixel, pixel_y)) if count > 1)
+def _taper(table, pixel, pixel_y=0.0):
+    """Taper in m: whole micrometres, at most an eighth of the shorter side. pixel, pixel_y: distances in m; pixel_y = 0: as the
+    file says, or equal to pixel.
+    """
+    steps = pixel, pixel_y or stated_keys.likely_distance(table.stated.y) or pixel
+    side = min((count - 1) * step for count, step in zip(table.values.shape[::-1], steps) if count > 1)
     return round(max(int(min(TAPER, side / SHARE) * 1e6), 1) * 1e-6, 9) if side else TAPER
 
 

@@ -5,6 +5,7 @@ import pytest
 from commands import here as tehl
 
 from tehl_taichi.scene import SceneError, scan_scene, scene_file
+from tehl_taichi.scene.feature import Feature
 
 HEADER = 'Instrument;"50x"\x07\nAbstand x [um];1,8\n\n'
 
@@ -33,6 +34,17 @@ def test_a_scene_for_a_scan(scan, tmp_path):
     assert found.contact == gear.contact and found.operation.srr == pytest.approx(gear.operation.srr)
     assert found.operation.u_m == pytest.approx(gear.operation.u_m) and found.oil == gear.oil
     assert found.fatigue.torsion_limit == 380e6 and found.fatigue.endurance == pytest.approx(380e6 * np.sqrt(1.09))
+
+
+@pytest.mark.parametrize("between, taper", [(0.4, 6e-6), (16.0, 40e-6)])
+def test_its_rim_is_that_of_the_distances_in_the_file(tmp_path, between, taper):
+    """121 rows, whose distance stands in the file alone; points of a row are 8 um apart."""
+    heights = 1e-3 * np.random.default_rng(3).normal(size=(121, 61)).cumsum(axis=1)
+    rows = "\n".join(",".join(f"{h:.5f}" for h in row) for row in heights)
+    (tmp_path / "a.csv").write_text(f"# x pixel size: 8 um\n# y pixel size: {between:g} um\n# Value units: um\n{rows}")
+    assert scan_scene.new(tmp_path / "mine.toml", "gear", tmp_path / "a.csv")[1:] == ([], "")
+    for f in (*scene_file.load(tmp_path / "mine.toml").features, Feature(**scan_scene.scan_keys(tmp_path / "a.csv"))):
+        assert f.steps == pytest.approx((8e-6, between * 1e-6)) and f.taper == pytest.approx(taper)
 
 
 def test_its_oil_needs_no_more_than_numbers(scan, tmp_path):
