@@ -43,14 +43,18 @@ def _installed(name):
 
 
 def _x3p(path):
-    """Heights of an x3p file (ISO 25178-72): its first layer, in m."""
+    """Heights of an x3p file (ISO 25178-72): its first layer, in m; with the coordinates where the file has those of each
+    point.
+    """
     import x3pio
 
     found = x3pio.read(path)
-    if not isinstance(found, (x3pio.Surface, x3pio.Profile)):
-        return np.asarray(found.layers[0].points(), float), Stated("m", place_unit="m")
-    heights: Any = np.ma.filled(np.ma.asarray(found.layers[0].z, float), math.nan)
-    x, y = ((float(axis.increment),) if axis.is_incremental else () for axis in (found.header.x, found.header.y))
+    layer = found.layers[0]
+    if not layer.is_regular_grid:
+        points = np.asarray(layer.points(), float).reshape(-1, 3)
+        return points[:, ::2] if isinstance(found, x3pio.Profile) else points, Stated("m", place_unit="m")
+    heights: Any = np.ma.filled(np.ma.asarray(layer.z, float), math.nan)
+    x, y = ((float(axis.increment),) for axis in (found.header.x, found.header.y))
     return heights, Stated("m", x, y if heights.ndim > 1 else ())
 
 

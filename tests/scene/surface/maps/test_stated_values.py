@@ -163,3 +163,27 @@ def test_x3p(tmp_path, kind):
     with pytest.raises(SceneError, match="cannot read heights from .*b.x3p: ") as caught:
         feature(tmp_path / "b.x3p")
     assert len(str(caught.value)) < 300 and "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("off", [0.0, 0.9e-6])
+@pytest.mark.parametrize("kind", ["surface", "profile"])
+def test_an_x3p_with_the_coordinates_of_each_point(tmp_path, kind, off):
+    """Even ones give the distances; of uneven ones a profile is interpolated, a map refused."""
+    x3pio = pytest.importorskip("x3pio")
+    y, x = np.mgrid[:10, :14] * np.reshape((3e-6, 2e-6), (2, 1, 1))
+    x[:, 6] += off
+    z = 0.01 * x + 0.005 * y
+    z[0, 3] = z[0, 3] if kind == "profile" else np.nan
+    points = np.stack([x, y, z], axis=-1)
+    made = x3pio.Surface.from_points(points) if kind == "surface" else x3pio.Profile.from_points(points[0])
+    made.save(tmp_path / "a.x3p")
+    keys = {"shape": "map" if kind == "surface" else "profile", "unit": "", "pixel": 0.0, "level": "none", "taper": 0.0}
+    if kind == "surface" and off:
+        with pytest.raises(SceneError, match="lie on no regular grid"):
+            feature(tmp_path / "a.x3p", **{**keys, "pixel": 2e-6})
+        return
+    f = feature(tmp_path / "a.x3p", **keys)
+    at, middle = np.linspace(-9e-6, 9e-6, 23), 13.5e-6 if kind == "surface" else 0.0
+    assert (f.unit, f.steps[0]) == ("m", pytest.approx(2e-6))
+    assert f.height_at(at, 0 * at) == pytest.approx(0.01 * (at + 13e-6) + 0.005 * middle, abs=1e-13)
+    assert f.holes.sum() == np.isnan(z).sum() * (kind == "surface")
