@@ -8,7 +8,7 @@ from tehl_taichi.fatigue.index_peaks import around, worst_places
 from tehl_taichi.report.document import table
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.run_tables import in_file
-from tehl_taichi.scene.feature_wording import feature_word
+from tehl_taichi.scene.feature_wording import feature_word, met_words
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.figures.height_profile import height_at
 from tehl_taichi.view.figures.index_text import index_text
@@ -22,7 +22,8 @@ APART = 0.25  # half-widths between two of them: asperities nearer to each other
 @dataclass(frozen=True)
 class NumberedPoint:
     """x, y: m, from the feature's centre; Fi: at the surface, below: at the worst depth (None: not all points were searched),
-    each the largest nearby; height: m.
+    each the largest nearby; height: m, of its surface, or of
+    the feature that a smooth surface meets there at X = 0.
     """
 
     x: float
@@ -43,13 +44,19 @@ def places(search):
     deep, apart = _below(search), APART * Scales.of(scene).a
     found = worst_places(x, y, Fi if deep is None else np.maximum(Fi, deep), apart, MOST)
     i, j = np.array(found).T
-    heights = height_at(scene, x[i], y[j])
+    heights = height_at(_features(search), x[i], y[j])
 
     def largest(values, place):
         return None if values is None else around(x, y, values, place, apart / 2)
 
     return [NumberedPoint(float(x[at[0]]), float(y[at[1]]), largest(Fi, at), largest(deep, at), float(height))
             for at, height in zip(found, heights)]
+
+
+def _features(search):
+    """Features of the searched surface; if it has none, those of the other one, which it meets there at X = 0."""
+    features = search.scene.features
+    return [f for f in features if f.surface == search.result.numbers.get("surface")] or features
 
 
 def _many(scene):
@@ -77,9 +84,18 @@ def rows(search):
     if not found:
         return None
     head, cells = zip(*_columns(search, scene, found))
-    caption = (f"Points of the {feature_word(scene)} with the largest index, numbered as on the maps. x, y: from its centre; "
+    caption = (f"Points of the {feature_word(scene)} with the largest index, numbered as on the maps. {_places(search)}; "
                f"Fi: largest value within {value_text(APART / 2 * Scales.of(scene).a, unit='m', digits=3)}.")
     return table(("critical point", *head), [(str(n), *row) for n, row in enumerate(zip(*cells), 1)], caption)
+
+
+def _places(search):
+    """Text about the columns of places and heights."""
+    numbers, met = search.result.numbers, met_words(search.scene, search.result.numbers)
+    if not met:
+        return "x, y: from its centre"
+    own = "" if numbers.get("carries_feature", True) else f"; height: of the point{met}"
+    return f"x, y: on body {numbers['surface']}, from the point that meets its centre at X = 0{own}"
 
 
 def _columns(search, scene, found):
@@ -91,7 +107,8 @@ def _columns(search, scene, found):
         depth = value_text(float(search.result.worst_depth[0]), unit="m", digits=3)
         yield f"Fi {depth} below", [index_text(p.below) for p in found]
     if feature_word(scene) == "scan":
-        yield "in the file, counted from 1", [_in_file(scene, p) for p in found]
+        met = met_words(scene, search.result.numbers)
+        yield f"in the file, counted from 1{', point' * bool(met)}{met}", [_in_file(scene, p) for p in found]
 
 
 def _in_file(scene, p):

@@ -8,7 +8,7 @@ from tehl_taichi.march import quantities
 from tehl_taichi.report.document import facts, sentences, table
 from tehl_taichi.report.number_text import FEW, index, roughly, share, text_parts, value_text
 from tehl_taichi.runs.summary.summary_rows import contact_share
-from tehl_taichi.scene.feature_wording import feature_word
+from tehl_taichi.scene.feature_wording import feature_word, met_words
 from tehl_taichi.store import integrity
 from tehl_taichi.values.coded_text import Reason, reasons_of
 from tehl_taichi.values.summary_values import error_of
@@ -98,14 +98,18 @@ def worst_points(fatigue, scene):
                for part, length in leading(fatigue) if length]
     rows = [(text.format(feature_word(scene)), *(_of_point(point, key, unit) for _, point in points))
             for text, key, unit in POINT]
-    return table(("critical point", *(where for where, _ in points)), rows + _in_file(scene, [point for _, point in points]))
+    places = _in_file(scene, fatigue, [point for _, point in points])
+    return table(("critical point", *(where for where, _ in points)), rows + places)
 
 
-def _in_file(scene, points):
-    """[(label, position of each point in the file of the scan)]; [] if positions are not those of a scan."""
+def _in_file(scene, fatigue, points):
+    """[(label, position of each point in the file of the scan)]; [] if positions are not those of a scan. fatigue: summary of
+    the search.
+    """
     if feature_word(scene) != "scan":
         return []
-    return [("nearest point in the file of the scan", *(in_file(scene, p["x_m"], p["y_m"]) for p in points))]
+    label = f"nearest point in the file of the scan{met_words(scene, fatigue)}"
+    return [(label, *(in_file(scene, p["x_m"], p["y_m"]) for p in points))]
 
 
 def in_file(scene, x, y):

@@ -19,7 +19,7 @@ USED_BY = {key: tuple(name for name, shape in SHAPES.items() if key in shape.use
 for owner, shape in SHAPES.items():
     USED_BY |= {key: (owner, *USED_BY.get(key, ())) for key in (kinds(shape.keys) if shape.keys else ())}
 LARGEST = 0.03  # m: contacts are a millimetre wide, 0.05 was meant in mm
-OF_HEIGHTS = ("shape", "sha256")  # keys that follow from the heights of an array
+OF_HEIGHTS = ("shape", "sha256", "file")  # keys that follow from the heights of an array
 
 
 def _about(key, general):

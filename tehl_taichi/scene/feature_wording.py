@@ -23,6 +23,14 @@ def from_centre(scene, carries=True):
     return f"x from the {feature_word(scene)}'s centre{'' if carries else ' at X = 0'} (µm)"
 
 
+def met_words(scene, numbers):
+    """Text ' that it meets at X = 0' for the place on the first feature where a point of another surface lies; "" if that stays
+    the place: on its own surface, and without slip. numbers: summary of a fatigue search.
+    """
+    paces = {surface.name: surface.pace for surface in scene.surfaces}
+    return "" if paces.get(numbers.get("surface"), 1.0) == 1.0 else " that it meets at X = 0"
+
+
 def position_title(scene):
     """Title of an axis of feature positions."""
     return f"position of the {position_word(scene)} x / a"

@@ -60,9 +60,15 @@ def check(scene):
     worst = min(sights(scene), key=lambda sight: sight.cells, default=None)
     times = max(scene.zoom.factor, 1)
     if worst and worst.cells * times < FEWEST:
-        raise SceneError(f"{worst.key} = {worst.length:.3g} m is {worst.cells:.2g} cells of grid.{worst.count} = {worst.grid}, "
-                         f"too few to resolve it; allowed: at least {FEWEST / times:g} cells: "
+        raise SceneError(f"{worst.key} = {worst.length:.3g} m is {_too_few(worst.cells)} cells of grid.{worst.count} = "
+                         f"{worst.grid}, too few to resolve it; allowed: at least {FEWEST / times:g} cells: "
                          f"{_remedy(scene, FEWEST / times, worst)}")
+
+
+def _too_few(cells):
+    """Text of a number of cells with two digits, rounded down: 3.98 are not the 4 that are allowed."""
+    digit = 10.0 ** (math.floor(math.log10(cells)) - 1)
+    return f"{math.floor(cells / digit + 1e-6) * digit:.2g}"
 
 
 def shortest_length(scene):

@@ -56,6 +56,11 @@ def test_fewer_than_four_cells_are_refused(values, key, count):
     assert any(f"{key} = " in line and "16" in line for line in on(256, 64, Feature(**wider)).warnings())
 
 
+@pytest.mark.parametrize("cells, shown", [(3.98, "3.9"), (3.996, "3.9"), (0.996, "0.99"), (0.3, "0.3")])
+def test_a_refused_number_of_cells_is_not_shown_as_an_allowed_one(cells, shown):
+    assert f" is {shown} cells of grid.nx = 256" in sentence(lambda: on(256, 64, Feature(width=cells * CELL)))
+
+
 def test_roughness_is_seen_along_both_axes():
     f = Feature(**{**PATCH, "shape": "rough", "width": 10 * CELL})
     assert "grid.ny = 24" in sentence(lambda: on(256, 24, f)) and "grid.nx = 96" in sentence(lambda: on(96, 64, f))

@@ -50,12 +50,12 @@ def heights(scene):
         edge = scene.grid.y_max * Scales.of(scene).b
         x, y = _even(features, "x", EVEN), _even([f for f in features if not f.transverse], "y", EVEN, edge)
     filled = sum(f.kind.filled(f, x[:, None] - f.x, y - f.y) for f in features) > 0
-    return Heights(x, y, height_at(scene, x[:, None], y), filled)
+    return Heights(x, y, height_at(features, x[:, None], y), filled)
 
 
-def height_at(scene, x, y):
-    """Height (m) of all features together at x, y (m, arrays, as in :class:`Heights`)."""
-    return sum(f.height_at(x - f.x, y - f.y) for f in scene.features)
+def height_at(features, x, y):
+    """Height (m) of all these features together at x, y (m, arrays, as in :class:`Heights`)."""
+    return sum(f.height_at(x - f.x, y - f.y) for f in features)
 
 
 def _own(f):

@@ -177,6 +177,7 @@ def test_infinite_heights_are_holes(least):
 @pytest.mark.parametrize("changes, words", [
     ({"shape": "map"}, "from_heights: shape = 'map' has no effect"),
     ({"sha256": "ab"}, "from_heights: sha256 = 'ab' has no effect"),
+    ({"file": "scan.npy"}, "from_heights: file = 'scan.npy' has no effect"),
     ({"scale": 500.0}, "^the array of heights, in m with level = 'plane', ranges over"),
     ({"pixel": 1e-9}, "^the array of heights, in m with level = 'plane', has slopes of")])
 def test_refusals_of_an_array_speak_of_it(changes, words):
