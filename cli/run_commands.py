@@ -112,9 +112,11 @@ def resume(
     Example: `tehl resume runs/gear-1.zarr`
     """
     import tehl_taichi as tehl
+    from tehl_taichi.engine import runtime
     from tehl_taichi.runs.open_results import open_run
 
     before = open_run(store)
+    runtime.check_number(threads)
     if before.rest(steps) is None:
         entries = number_of(len(before.store), "entry", "entries")
         say(f"{store} is finished ({entries}); `tehl show {typed(store)}` prints its summary")

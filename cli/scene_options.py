@@ -33,12 +33,13 @@ def _grid(text):
     if text is None:
         return {}
     from tehl_taichi.scene import SceneError
+    from tehl_taichi.values.checks import nearest
 
     try:
         counts = GRIDS.get(text) or [int(part) // 2 * 2 for part in text.lower().split("x", 1)]
     except ValueError:
         raise SceneError(f"--grid {text!r} is not known; allowed: {', '.join(GRIDS)} or NXxNY, as in 256x64 (NX alone if "
-                         "nothing varies along y)") from None
+                         f"nothing varies along y){nearest(text, GRIDS)}") from None
     return dict(zip(("grid.nx", "grid.ny"), counts))
 
 

@@ -8,9 +8,11 @@ FAILED, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 4
 # Options that are arguments or keys of a scene in Python; outside of whole commands, which stand in backquotes
 ARGUMENTS = {"--out": "path", "--force": "force=True", "--pixel-y": "pixel_y", "--threads-per-worker": "threads_per_worker",
              "--thermal": "thermal.on=True", "--steady": "time.steady_only=True", "--grid": "grid.nx", "--map": "shown",
+             "--ball-diameter": "dimensions: diameter", "--balls": "count", "--pitch-diameter": "pitch_diameter",
              **{f"--{name}": name for name in ("workers", "threads", "scheduler", "keep", "samples", "lay", "residual",
                                                "format", "over")}}
-VALUES = ((re.compile(r"--grid (\d+)x(\d+)"), r"grid.nx=\1 and grid.ny=\2"), (re.compile(r"--grid (\d+)"), r"grid.nx=\1"),
+VALUES = ((re.compile(r"(--set [\w.]+=\S+) (?=--(?:set|grid) )"), r"\1, "),
+          (re.compile(r"--grid (\d+)x(\d+)"), r"grid.nx=\1 and grid.ny=\2"), (re.compile(r"--grid (\d+)"), r"grid.nx=\1"),
           (re.compile(r"--zoom (\d+)"), r"zoom.factor=\1"), (re.compile(r"--precision (\w+)"), r"numerics.precision='\1'"),
           (re.compile(r"--(workers|threads) (\d+)"), r"\1=\2"), (re.compile(r"--set (?=[\w.]+=)"), ""))
 COMMAND, OPTION = re.compile(r"(`[^`]*`)"), re.compile(r"--[a-z]+(?:-[a-z]+)*")
@@ -33,7 +35,8 @@ def typed_options(typed=True):
         _typed = before
 
 
-def _for_reader(text):
+def for_reader(text):
+    """The text with the options of the command line, or in Python with its arguments (see :func:`typed_options`)."""
     if _typed or not isinstance(text, str) or "--" not in text:
         return text
     parts = COMMAND.split(text)
@@ -70,7 +73,7 @@ class Error(Exception):
     exit_code = FAILED
 
     def __init__(self, *args):
-        super().__init__(*map(_for_reader, args))
+        super().__init__(*map(for_reader, args))
 
 
 class SceneError(Error, ValueError):

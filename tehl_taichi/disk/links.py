@@ -52,8 +52,11 @@ def result_folders(path):
 
 
 def marks_of(folder):
-    """Names of the files by which a folder counts as one of results."""
-    return [mark for mark in MARKS if os.path.lexists(folder / mark)]
+    """Names of the files by which a folder counts as one of results: beside its JSON file a set of contacts has its table,
+    which output of --json that a user saved under that name has not.
+    """
+    files = {mark: (mark,) if mark == ROOT else (mark, f"{Path(mark).stem}.csv") for mark in MARKS}
+    return [mark for mark, needed in files.items() if all(os.path.lexists(folder / name) for name in needed)]
 
 
 def _links_through(folder):

@@ -94,12 +94,17 @@ def check(arch=None, threads=None):
         raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
     if arch == "cuda":
         _driven()
+    check_number(threads)
+    if _started and threads is not None:
+        _same_start(arch, int(threads))
+
+
+def check_number(threads):
+    """Refuse a number of threads that no machine has, also where nothing is left to compute. Raises RuntimeUnavailable."""
     if threads is not None and not isinstance(threads, numbers.Integral):
         raise RuntimeUnavailable(f"threads = {threads!r} is not a whole number; allowed: 1 to {MOST_THREADS}")
     if threads is not None and not 1 <= threads <= MOST_THREADS:
         raise RuntimeUnavailable(f"threads = {threads!r} is out of range; allowed: 1 to {MOST_THREADS}")
-    if _started and threads is not None:
-        _same_start(arch, int(threads))
 
 
 def _driven():

@@ -11,7 +11,7 @@ from tehl_taichi.report.scene_text import moments
 from tehl_taichi.report.verdict import FATIGUE
 from tehl_taichi.runs.open_results import INSIDE, RUN, kind, open_run
 from tehl_taichi.runs.summary import life, result_warnings
-from tehl_taichi.scene import fatigue_limits, scene_file
+from tehl_taichi.scene import fatigue_limits, left_out, scene_file
 from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.scene.timeline import total_steps
@@ -70,7 +70,7 @@ class SearchedStore:
         self.store, self.scene = store, scene
         self.attrs = {**store.attrs, "scene_toml": scene_file.dumps(scene)}
         stored = {key: value for key, value in store.summary.items() if key != "life"}
-        self.summary = {**stored, "left_out": scene.left_out(), **judged_surfaces.parts(searches),
+        self.summary = {**stored, "left_out": left_out.parts(scene), **judged_surfaces.parts(searches),
                         **life.part(searches, scene.fatigue)}
         self.warnings = result_warnings.warnings(self, self.summary)
 

@@ -39,7 +39,7 @@ def page(store, result=None):
     sections = (scene_section(store.scene, text(store.attrs, "scene_toml", "")),
                 *surface_plots.section(store.scene, store.summary), *run_in_plots.section(store), *_film(store),
                 *zoom_plots.section(store), *_fatigue(store, result), *crack_plots.section(store), *_made(store))
-    answer = dataclasses.replace(verdict.of(store), known_before=tuple(store.scene.warnings()))
+    answer = dataclasses.replace(verdict.of(store), known_before=tuple(store.scene.typed_warnings))
     return Page(f"{store.scene.name}: report", about, answer, sections)
 
 

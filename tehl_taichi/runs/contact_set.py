@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Self
 from tehl_taichi.disk import files, links, user_files
 from tehl_taichi.errors import StoreError
 from tehl_taichi.values.checks import integer
+from tehl_taichi.values.coded_warning import summary_for_reader
 
 DAMAGES = ValueError, KeyError, TypeError, AttributeError, RecursionError  # of a JSON file that tehl did not write
 
@@ -80,7 +81,7 @@ class ContactSet:
         """Refuse the store of a run or a study, and the folder of a set of another kind."""
         from tehl_taichi.runs.open_results import kind
 
-        if any(os.path.lexists(folder / mark) for mark in links.MARKS):
+        if links.marks_of(folder):
             raise StoreError(f"{folder} exists and is the folder of a {kind(folder)}; choose another --out")
 
     @classmethod
@@ -201,7 +202,8 @@ class PositionSet(ContactSet):
     @property
     def rows(self) -> list:
         """(position, Hertz pressure in Pa, summary or None) of every position."""
-        return [(self._position(one), one["p_Hertz_Pa"], one["summary"]) for one in self.record["positions"]]
+        return [(self._position(one), one["p_Hertz_Pa"], summary_for_reader(one["summary"]))
+                for one in self.record["positions"]]
 
     @property
     def failed(self) -> list:

@@ -3,7 +3,7 @@
 import contextlib
 import time
 
-from tehl_taichi.errors import Error
+from tehl_taichi.errors import Error, for_reader
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.runs.pace import about
 from tehl_taichi.scene.timeline import total_steps
@@ -26,7 +26,8 @@ def announced(scenes):
     line = f"{number_of(len(passing), 'passage')} of {number_of(steps, 'step')} on {_cells(passing[0])} cells"
     if sum(map(coarse_runs.heavy_work, passing)) < LONG:
         return [line]
-    return [f"{line}; the remaining time follows from the first steps. Shorter: {'; '.join(_shorter(passing))}"]
+    shorter = for_reader("; ".join(_shorter(passing)))
+    return [f"{line}; the remaining time follows from the first steps. Shorter: {shorter}"]
 
 
 def _cells(scene):

@@ -7,7 +7,7 @@ import time
 from os import PathLike
 from pathlib import Path
 
-from tehl_taichi.errors import StoreError, interrupt
+from tehl_taichi.errors import StoreError, for_reader, interrupt
 from tehl_taichi.fatigue.pressure_alone import WITHOUT, searched, why_none
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress, progress_of
@@ -83,6 +83,7 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
 
     if steps is not None:
         integer("steps", steps, 1, 10**7)
+    runtime.check_number(threads)
     before, progress = open(path), progress_of(progress)
     path = before.path
     rest = before.rest(steps)
@@ -165,7 +166,7 @@ def _steady_start(scene, progress):
     first = next(march(scene))
     progress.stage(STEADY, 1, 1)
     if first.unsettled:
-        progress.warn(f"{first.unsettled}; the passage starts from an unsteady state")
+        progress.warn(f"{for_reader(first.unsettled)}; the passage starts from an unsteady state")
     return first, {"steady_error": plain(first.error), "steady_parts": plain(first.parts),
                    "steady_domain": first.domain.values(), "steady_contact_alone": plain(_contact_alone(scene, first)),
                    **{f"steady_{name}": values for name, values in unknown_of(first.unknown).items()}}
@@ -175,7 +176,7 @@ def _attributes(scene, steady):
     """Attributes of a new store."""
     from tehl_taichi.runs.provenance import provenance
 
-    return {**texts(scene.warnings()), **{name: json.dumps(value) for name, value in steady.items()}, **provenance(scene)}
+    return {**texts(scene.typed_warnings), **{name: json.dumps(value) for name, value in steady.items()}, **provenance(scene)}
 
 
 def _contact_alone(scene, first):

@@ -11,6 +11,8 @@ from tehl_taichi.errors import StoreError, UnknownName
 from tehl_taichi.runs.summary import summary_numbers
 from tehl_taichi.scene import Scene
 from tehl_taichi.values.checks import callback
+from tehl_taichi.values.coded_text import for_reader
+from tehl_taichi.values.coded_warning import summary_for_reader
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.estimate import Quantity
 
@@ -67,7 +69,7 @@ class Run:
     @property
     def summary(self) -> dict:
         """The JSON object of `tehl run --json` (SI units in the names); {} if the run is not finished."""
-        return self.store.summary
+        return summary_for_reader(self.store.summary)
 
     @property
     def warnings(self) -> list:
@@ -80,7 +82,7 @@ class Run:
         >>> cut[:11], sorted(cut.data)
         ('passage cut', ['end_a', 'options', 'whole_a'])
         """
-        return self.store.warnings
+        return [for_reader(one) for one in self.store.warnings]
 
     def __getitem__(self, name: str) -> Quantity:
         """Return a number of the summary with its error: run["p_max"], or by its full name run["steady.p_max_Pa"].

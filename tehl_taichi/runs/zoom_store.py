@@ -14,11 +14,12 @@ from tehl_taichi.values.quantity import AUTO
 
 def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = None, progress: Progress | None = None) -> Run:
     """Add a window: see :func:`tehl_taichi.zoom`."""
+    from tehl_taichi.engine import runtime
+
+    runtime.check_number(threads)
     if factor == AUTO:
         return _zoom_as_needed(path, threads, progress_of(progress))
     began = time.perf_counter()
-    from tehl_taichi.engine import runtime
-
     before, progress = single_run.open(path), progress_of(progress)
     scene = before.scene.replace(**{"zoom.factor": factor})
     _check(before, factor)

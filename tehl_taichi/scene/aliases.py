@@ -6,6 +6,7 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.tables import as_changes
 from tehl_taichi.scene.unit_texts import in_units
 from tehl_taichi.values.coerce import plain, shown
+from tehl_taichi.values.units import split
 
 SHORT = {"srr": "operation.srr", "load": "contact.load", "hertz_pressure": "contact.hertz_pressure",
          "speed": "operation.u_m", "temperature": "operation.temperature", "height": "feature.height",
@@ -71,7 +72,13 @@ def _is_given(key, value):
     """Whether a value sets its key: a load of 0, 0 steps and steady_only = false do not; a speed or slip of 0 does."""
     if key == "time.steps":
         return not isinstance(value, int) or value > 0
-    return key.startswith("operation.") or bool(value)
+    return key.startswith("operation.") or not _is_zero(value)
+
+
+def _is_zero(value):
+    """Whether a value is 0, or text of 0 with a unit: that of a load depends on the contact."""
+    number = split(value) if isinstance(value, str) else None
+    return float(number[0]) == 0 if number else not value
 
 
 def _contradict(one, other):

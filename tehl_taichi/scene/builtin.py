@@ -49,8 +49,7 @@ BUILT_INS = {
     "ball-on-disc": (Scene(name="ball-on-disc", features=(), operation=Operation(u_m=0.01075, srr=0.0), **BALL),
                      "steel ball on glass, 0.54 GPa: steady circular contact, Newtonian oil"),
     "ridge-on-ball": (Scene(name="ridge-on-ball", features=(RIDGE,), operation=Operation(u_m=0.01075, srr=0.0), **BALL),
-                      "the ball with a transverse ridge of 0.2 um, pure rolling (use --srr -1 or 1 for sliding), Newtonian "
-                      "oil"),
+                      "the ball with a transverse ridge of 0.2 um, pure rolling (SRR -1 or 1: sliding), Newtonian oil"),
     "furrow-line": (Scene(name="furrow-line", contact=Contact(radius_x=14.1e-3, load=1.5708e6), **NEWTONIAN,
                           operation=Operation(u_m=0.97, srr=-1.0), oil=OILS["moes-test-fluid"], features=(FURROW,),
                           grid=Grid(x_min=-3.5, x_max=2.0)),

@@ -15,6 +15,7 @@ from tehl_taichi.scene import (
     domain_warnings,
     film_formula,
     idle_keys,
+    left_out,
     moving_surfaces,
     named_oils,
     oil,
@@ -48,10 +49,10 @@ from tehl_taichi.scene.sections import (
 )
 from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.scene.surface.maps import map_warnings
-from tehl_taichi.scene.timeline import LATEST, cut_at, moments, total_steps
+from tehl_taichi.scene.timeline import LATEST, moments, total_steps
 from tehl_taichi.scene.unit_texts import in_units
 from tehl_taichi.values.checks import build, file_name, nearest, number
-from tehl_taichi.values.coded_text import CodedText, Option, options_of
+from tehl_taichi.values.coded_text import for_reader
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.quantity import Text, known_keys
@@ -375,39 +376,15 @@ class Scene:
 
         cut: also list the rest of a cut passage, which a warning reports, too.
         """
-        out: list[str] = []
-        if self.isothermal:
-            why = "isothermal film" if self.thermal.on is False else "no slip" if self.operation.srr == 0 else "a Moes pair"
-            option = Option("; --thermal computes them", "")
-            text = f"energy equation and temperatures ({why}{option}{film_formula.heat_words(self)})"
-            out.append(CodedText(text, "isothermal", options_of(option)))
-        if self.isothermal and self.film_oil.expansion == "thermal" and self.oil.expands:
-            out.append("thermal expansion of the oil (isothermal film; oil.expansion = 'always' includes it)")
-        if self.one_dimensional:
-            out.append("y direction (nothing varies along y in this line contact)")
-        elif self.symmetric:
-            out.append("half of the domain (symmetric in y)")
-        if not self.transient:
-            out.append("march in time (steady)" if self.features else "march in time (no feature)")
-        elif cut and (end := cut_at(self)) is not None:
-            option = Option("; `tehl resume` continues", "")
-            text = f"rest of the passage (cut at {end:.2f} a by time.steps or time.x_end{option})"
-            out.append(CodedText(text, "cut", options_of(option)))
-        if not self.has_fatigue:
-            out.append(self.without_fatigue)
-        out += [f"run-in of body {name} ({why})" for name, why in run_in.elastic_bodies(self).items()]
-        if self.operation.u_s == 0:
-            out.append("sliding friction (SRR = 0)")
-        if not self.rheology.thins:
-            out.append(f"shear law of the film (rheology.law = {self.rheology.law!r})")
-        return out
+        return [for_reader(what) for what in left_out.parts(self, cut)]
 
     def warnings(self) -> list:
         """Warnings about this scene, one sentence each (see :mod:`tehl_taichi.scene.scene_warnings`)."""
-        return list(self._warnings)
+        return [for_reader(one) for one in self.typed_warnings]
 
     @functools.cached_property
-    def _warnings(self):
+    def typed_warnings(self) -> list:
+        """The warnings with the options of the command line, as stores keep them."""
         return scene_warnings.warnings(self)
 
     @property
@@ -480,7 +457,7 @@ class Scene:
         """
         object.__setattr__(self, "user_keys", frozenset(keys))
         object.__setattr__(self, "replaced", tuple(replaced))
-        self.__dict__.pop("_warnings", None)  # they depend on these keys
+        self.__dict__.pop("typed_warnings", None)  # they depend on these keys
         return self
 
     def to_dict(self) -> dict:

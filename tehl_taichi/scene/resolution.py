@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.values.coded_text import grid_option
+from tehl_taichi.values.coded_text import Option, grid_option
 from tehl_taichi.values.coded_warning import with_data
 
 # Cells per width of a feature. Measured on passages of bumps, ridges, furrows and roughness (isothermal, against grids four
@@ -133,7 +133,7 @@ def _remedy(scene, cells, worst):
     if found := _finer(scene, cells):
         return found
     if not scene.zoom.factor and (found := _finer(scene, cells / WINDOW)):
-        return f"--zoom {WINDOW} with {found}"
+        return Option(f"--zoom {WINDOW} with {found}", f"a window {WINDOW} times as fine with {found.words}")
     return f"no grid is fine enough; {worst.key} of {worst.length * cells / worst.cells:.2g} m is enough on this one"
 
 

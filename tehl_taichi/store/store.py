@@ -181,7 +181,7 @@ class Store(LockedFolder, Reader):
         self.scene, self.attrs = scene, {name: value for name, value in self.attrs.items() if name != "summary"}
         with _disk_errors(self.path, f"then use: tehl resume {typed(self.path)}"):
             self._commit(scene=json.dumps(scene.to_dict()), scene_toml=scene_file.dumps(scene), results="[]", finished=False,
-                         **texts(scene.warnings()))
+                         **texts(scene.typed_warnings))
 
     def finish(self, summary, maps=None):
         """Store the summary (and maps {name: (values, dims, units, text)}) and mark the run as finished."""

@@ -1,5 +1,7 @@
 """Sentences with a code for their kind and their numbers as data: programs read these, not the sentence."""
 
+from tehl_taichi import errors
+
 
 class CodedText(str):
     """A sentence. code: of its kind, "" if unknown; data: {name with its SI unit: value}.
@@ -19,8 +21,18 @@ class CodedText(str):
         return str(self), self.code, self.data
 
 
+
 class Reason(CodedText):
     """Reason why a number or its error is not known."""
+
+
+def for_reader(sentence):
+    """The sentence with its options as its reader types them, see :func:`tehl_taichi.errors.for_reader`."""
+    if not isinstance(sentence, CodedText):
+        return errors.for_reader(sentence)
+    options = {errors.for_reader(option): words for option, words in sentence.data.get("options", {}).items()}
+    return type(sentence)(errors.for_reader(str(sentence)), sentence.code,
+                          sentence.data | ({"options": options} if options else {}))
 
 
 def code_of(text):

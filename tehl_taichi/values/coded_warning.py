@@ -2,7 +2,7 @@
 
 import json
 
-from tehl_taichi.values.coded_text import CodedText, code_of, options_of
+from tehl_taichi.values.coded_text import CodedText, code_of, for_reader, options_of
 
 
 class CodedWarning(CodedText):
@@ -78,6 +78,15 @@ def warnings_of_lists(sentences, codes, data):
     if not len(sentences) == len(codes) == len(data):
         return [CodedWarning(text) for text in sentences]
     return [CodedWarning(*one) for one in zip(sentences, codes, data)]
+
+
+def summary_for_reader(summary):
+    """Copy of a summary (or None) whose sentences have the options as their reader types them."""
+    if not summary:
+        return summary
+    left_out = [for_reader(what) for what in summary.get("left_out", [])]
+    found = lists(map(for_reader, warnings_of(summary))) if "warning_codes" in summary else {}
+    return {**summary, **({"left_out": left_out} if left_out else {}), **found}
 
 
 def warnings_of(summary):

@@ -376,24 +376,23 @@ def test_a_worker_names_what_its_sweep_names(tmp_path, typed, word):
         assert word in case.run_case(pickle.loads(pickle.dumps(job)))["reason"]
 
 
-ERRORS = {name for name, one in vars(errors).items() if isinstance(one, type) and issubclass(one, Exception)} | {"Busy"}
-
-
-def raised_texts(tree):
-    """Texts in the arguments of errors; `%` stands for a value."""
-    calls = (node for node in ast.walk(tree) if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ERRORS)
-    parts = [part for call in calls for part in ast.walk(call)]
+def spoken_texts(tree):
+    """Texts of a file without its docstrings; `%` stands for a value."""
+    parts = list(ast.walk(tree))
     formatted = [part.values for part in parts if isinstance(part, ast.JoinedStr)]
-    inside = {id(one) for values in formatted for one in values}
-    alone = [[part] for part in parts if isinstance(part, ast.Constant) and id(part) not in inside]
+    docstrings = {id(part.value) for part in parts if isinstance(part, ast.Expr)}
+    other = docstrings | {id(one) for values in formatted for one in values}
+    alone = [[part] for part in parts if isinstance(part, ast.Constant) and id(part) not in other]
     return ["".join(str(one.value) if isinstance(one, ast.Constant) else "%" for one in values)
             for values in (*formatted, *alone)]
 
 
-def test_every_option_in_an_error_has_a_name_in_python():
-    """Outside of whole commands in backquotes."""
-    texts = [text for path in Path(tehl.__file__).parent.rglob("*.py") for text in raised_texts(ast.parse(path.read_text()))]
-    assert len(texts) > 300 and [text for text in texts if "--" in re.sub("`[^`]*`", "", str(tehl.Error(text)))] == []
+def test_every_option_in_a_text_of_the_package_has_a_name_in_python():
+    """Outside of whole commands in backquotes: errors, warnings, reasons; errors.py holds the names, commit.py calls git."""
+    files = (path for path in Path(tehl.__file__).parent.rglob("*.py") if path.name not in ("errors.py", "commit.py"))
+    texts = [text for path in files for text in spoken_texts(ast.parse(path.read_text(encoding="utf-8")))]
+    named = [[re.sub("`[^`]*`", "", errors.for_reader(text.replace("%", value))) for value in ("4", "key=4")] for text in texts]
+    assert len(texts) > 3000 and [one for one in named if all(re.search("--[a-z]", text) for text in one)] == []
 
 
 @pytest.mark.parametrize("command", ["run", "flank", "sweep", "traction", "bearing", "roller"])
@@ -609,6 +608,8 @@ def test_an_error_of_python_without_plugins_names_none():
 
 @pytest.mark.parametrize("words, said", [
     ("run gear --dry-run --load 0", "--load 0 is out of range"),
+    ("run gear --dry-run --load 0N/mm", "--load 0N/mm is out of range: a contact needs a load"),
+    ("run gear --dry-run --set contact.load=0.0kN/m", "--set contact.load=0.0kN/m is out of range: a contact needs a load"),
     ("run gear --dry-run --hertz-pressure 0", "--hertz-pressure 0 is out of range: a contact needs a load"),
     ("sweep mtm --dry-run --over load=0,9", "load = 0 is out of range"),
     ("run gear --dry-run --set contact.moes_M=0", "contact.moes_M=0 is out of range"),
@@ -623,6 +624,27 @@ def test_a_zero_is_no_missing_value(tmp_path, monkeypatch, words, said):
     assert done.returncode == 2 and said in " ".join(done.stderr.split())
 
 
+@pytest.mark.parametrize("command", ["resume", "zoom --factor 0", "zoom --factor auto"])
+def test_threads_are_checked_where_nothing_is_left_to_compute(tmp_path, command):
+    made_results.run(tmp_path / "a.zarr")
+    found = here(*command.split(), tmp_path / "a.zarr", "--threads", 0)
+    assert (found.returncode, found.stderr) == (2, "tehl: threads = 0 is out of range; allowed: 1 to 1024\n")
+    for call in (tehl.resume, tehl.zoom):
+        with pytest.raises(tehl.RuntimeUnavailable, match="threads = -1 is out of range"):
+            call(tmp_path / "a.zarr", threads=-1)
+
+
+@pytest.mark.parametrize("option", ["--workers", "--threads"])
+def test_processes_and_threads_are_checked_where_a_bearing_runs_nothing(tmp_path, option):
+    found = here("bearing", "6206", "--no-run", option, 0, cwd=tmp_path)
+    assert found.returncode == 2 and found.stderr.endswith(f"tehl: {option} = 0 is out of range; allowed: 1 to 1024\n")
+    assert not any(tmp_path.iterdir())
+
+
+def test_a_misspelt_grid_is_answered_with_the_nearest_one():
+    assert "did you mean 'coarse'?" in here("run", "gear", "--dry-run", "--grid", "corse").stderr
+
+
 def test_a_load_of_zero_is_refused_in_a_traction_curve():
     from tehl_taichi.runs.traction.traction_run import traction_plan
 
@@ -631,4 +653,5 @@ def test_a_load_of_zero_is_refused_in_a_traction_curve():
 
 
 def test_a_load_of_zero_beside_another_load_removes_none():
-    assert tehl.scene("gear").replace(load=0.0, hertz_pressure=1e9).contact.hertz_pressure == 1e9
+    for zero in (0.0, "0 N/mm", "-0.0 kN/m"):
+        assert tehl.scene("gear").replace(load=zero, hertz_pressure=1e9).contact.hertz_pressure == 1e9

@@ -172,7 +172,7 @@ def test_what_a_run_does_not_have_is_left_out(pages):
 
 def test_warnings_of_the_result_stand_before_those_of_the_scene(pages, tmp_path):
     cut = made_results.THERMAL.replace(**{"time.steps": 4})
-    known, found = cut.warnings(), ["the first of the result", "the second"]
+    known, found = cut.typed_warnings, ["the first of the result", "the second"]
     assert known
     made = made_results.run(tmp_path / "a.zarr", cut, 5, made_results.fatigue(), said=[*known, *found])
     text = page(made, tmp_path).text

@@ -109,16 +109,17 @@ def test_a_scene_in_words():
 
 
 def test_warnings_lose_what_only_a_terminal_takes():
+    from tehl_taichi.scene import left_out as scene_parts
     from tehl_taichi.scene import refinement
 
     grid = refinement.finer_grid_option(scene("gear"))
     text = without_options(with_data(f"a finer grid may resolve it: {grid}", grid))
     assert text == "a finer grid may resolve it: a grid of 512 × 128 cells (8 times the work)"
     wide = scene("gear").replace(**{"feature.y": 0.3e-3, "grid.nx": 128, "grid.ny": 32})
-    room, = (one for one in wide.warnings() if one.code == "room")
+    room, = (one for one in wide.typed_warnings if one.code == "room")
     assert "use --set grid.y_max=1.2 --grid 128x" in room
     assert "use grid.y_max=1.2 and a grid of 128 × " in without_options(room) and "--" not in without_options(room)
-    left_out = scene("gear").replace(**{"thermal.on": False}).left_out()
+    left_out = scene_parts.parts(scene("gear").replace(**{"thermal.on": False}))
     assert any("--thermal" in one for one in left_out) and not any("--" in without_options(one) for one in left_out)
     assert without_options("feature.taper = 4e-05 (m)") == "feature.taper = 4e-05 (m)"
 

@@ -5,6 +5,7 @@ import re
 import pytest
 
 import tehl_taichi as tehl
+from tehl_taichi.errors import typed_options
 from tehl_taichi.runs import passages_left
 from tehl_taichi.runs.passages_left import PassagesLeft, announced
 from tehl_taichi.scene.timeline import total_steps
@@ -59,11 +60,13 @@ def test_passages_are_announced_with_shorter_ways():
     counts = sorted(total_steps(scene) for scene in long)
     line, = announced(long)
     assert line.startswith(f"2 passages of {counts[0]} to {counts[1]} steps on 256x64 cells; ")
-    assert re.search(r"Shorter: --steady, without passages; --grid 128x32, 0\.1[234] times the work", line)
+    assert re.search(r"Shorter: time.steady_only=True, without passages; grid.nx=128 and grid.ny=32, 0\.1[234] times the", line)
+    with typed_options():
+        assert re.search(r"Shorter: --steady, without passages; --grid 128x32, 0\.1[234] times the work", *announced(long))
     assert announced([scene.replace(**SMALL, **{"thermal.on": False}) for scene in long[:1]])[0].endswith(" on 64x16 cells")
     assert announced([scene.replace(**{"time.steady_only": True}) for scene in long]) == []
     line, = announced([tehl.scene("furrow-line")] * 400)
-    assert "x" not in re.search(r"--grid (\S+),", line)[1]
+    assert "x" not in re.search(r"grid.nx=(\S+),", line)[1]
 
 
 def test_steps_are_read_from_a_store_that_another_process_writes(tmp_path, taichi_cpu):

@@ -96,7 +96,7 @@ def test_a_fixed_end_within_the_film_is_too_short(scene, end):
     assert text.startswith(f"the gap at {key} = {value:g} is only {1 + gap * s.h / film:.2f} times the film")
     farther = {found: float(far) for found, far in re.findall(r"--set (\S+)=(\S+)", text)}
     assert abs(farther[key]) > abs(value)
-    assert [str(one) for one in short.warnings() if one.code == "domain"] == [text] and "--" not in without_options(text)
+    assert [str(one) for one in short.typed_warnings if one.code == "domain"] == [text] and "--" not in without_options(text)
     for enough in (thick, short.replace(**farther), scene.replace(**end), short.replace(**{"grid.inlet": "starved"})):
         assert not domain.too_short(enough) and "domain" not in {one.code for one in enough.warnings()}
 
@@ -104,7 +104,7 @@ def test_a_fixed_end_within_the_film_is_too_short(scene, end):
 def test_a_computed_loss_replaces_the_estimate_of_a_short_domain(monkeypatch):
     """One sentence about a domain, not two; other warnings of the scene stay."""
     estimates = [CodedWarning("by formula", "domain"), CodedWarning("coarse", "cells")]
-    store = SimpleNamespace(scene=SimpleNamespace(warnings=lambda: estimates), warnings=[])
+    store = SimpleNamespace(scene=SimpleNamespace(typed_warnings=estimates), warnings=[])
     for found in ([CodedWarning("computed", "domain")], []):
         monkeypatch.setattr(result_warnings, "coded_warning", lambda *_, found=found: found)
         assert result_warnings.warnings(store, {}) == [*estimates[len(found):], *found]

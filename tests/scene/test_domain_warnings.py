@@ -43,7 +43,7 @@ def settled(said):
 
 def test_a_feature_that_may_find_no_room_is_doubted():
     tight = tehl.scene("gear").replace(**TIGHT)
-    [said] = [sentence for sentence in tight.warnings() if "grid.x_max" in sentence]
+    [said] = [sentence for sentence in tight.typed_warnings if "grid.x_max" in sentence]
     assert "1.5e-06 m passes grid.x_max = 1.5 a, where the dry gap is" in said
     assert not any("grid.x_max" in sentence for sentence in tight.replace(**settled(said)).warnings())
     assert not any("grid.x_max" in sentence for sentence in tehl.scene("gear").warnings())
@@ -65,7 +65,7 @@ def test_one_sentence_settles_ends_and_sides_at_once(taichi_cpu):
     """A wide, high patch under a small load; with the options of the sentence nothing is said of the domain, and it runs."""
     small = {"grid.nx": 64, "grid.ny": 16, "load": 300e3, "thermal.on": False}
     tight = tehl.scene("gear").replace(feature=[WIDE], **small)
-    said, = (sentence for sentence in tight.warnings() if sentence.code == "room")
+    said, = (sentence for sentence in tight.typed_warnings if sentence.code == "room")
     assert "passes grid.x_max = 1.5 a" in said and "reaches to 0.00045 m along y" in said
     assert "(feature.extent_y = 0.000378 makes the patch smaller)" in said
     changes = settled(said)

@@ -89,7 +89,7 @@ def test_enough_cells_carry_no_warning():
     assert told(on(112, 28, Feature(width=200e-6)))  # 15.5 cells
     assert not told(on(128, 32, Feature(width=200e-6)))  # 17.7
     said, = told(on(64, 16, Feature(width=200e-6)))
-    assert "8.8 cells" in said and "--grid 128x32" in said
+    assert "8.8 cells" in said and said.endswith("; grid.nx=128 and grid.ny=32")
 
 
 def test_which_built_in_scenes_are_coarse():
@@ -110,7 +110,7 @@ def test_features_beside_the_domain(feature, words):
 def test_features_at_its_edge_are_cut():
     assert on(256, 64, Feature(y=4.5e-4)).rows == 128
     said, = told(on(256, 64, Feature(y=3e-4)))
-    assert said.endswith("heights beyond are cut off; use --set grid.y_max=1.2 --grid 256x80")
+    assert said.endswith("heights beyond are cut off; use grid.y_max=1.2, grid.nx=256 and grid.ny=80")
     assert told(on(256, 64, Feature(y=3e-4), **{"grid.y_max": 1.2, "grid.ny": 76})) == []
     assert on(256, 64, Feature(shape="ridge", y=1e-3, height=1e-7)).one_dimensional  # transverse: the same for every y
 
@@ -119,7 +119,7 @@ def test_a_patch_that_is_too_wide_may_be_made_smaller():
     patch = Feature(**dict(PATCH, shape="rough", width=60e-6, extent_y=1.2e-3, y=1e-5))
     said, = (text for text in on(256, 64, patch).warnings() if "cut off" in text)
     extent = float(said.split("feature.extent_y = ")[1].split()[0])
-    assert "makes the patch smaller); use --set grid.y_max=" in said
+    assert "makes the patch smaller); use grid.y_max=" in said
     smaller = Feature(**dict(PATCH, shape="rough", width=60e-6, extent_y=extent, y=1e-5))
     assert not any("cut off" in text for text in on(256, 64, smaller).warnings())
     assert extent > 0.98 * 2 * (362e-6 - 1e-5)  # b less the way to the side

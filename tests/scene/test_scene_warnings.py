@@ -57,7 +57,7 @@ def test_a_film_too_thin_for_the_grid_is_doubted_before_the_run():
     line = scene("smooth-line").replace(**{"grid.nx": 64, "grid.ny": 16})
     assert not line.warnings()
     said, = line.replace(**{"speed": 0.3, "thermal.on": False}).warnings()
-    assert "4.6e-08 m at the centre, 0.63 of the film that 64 columns resolve" in said and said.endswith("use --grid 128")
+    assert "4.6e-08 m at the centre, 0.63 of the film that 64 columns resolve" in said and said.endswith("use grid.nx=128")
     said, = line.replace(speed=0.002).warnings()
     assert "1.5 nm" in said and "polished steel (10 nm)" in said
     said, = line.replace(**{"contact.hertz_pressure": 4e9, "contact.radius_x": 0.3, "speed": 0.02}).warnings()

@@ -1,14 +1,17 @@
 """Warnings are sentences with a code and numbers: in a scene, a summary, a store, another process."""
 
+import io
 import json
 import pickle
 from types import SimpleNamespace
 
 import made_results
 import pytest
+from commands import here
 from small_stores import store
 
 import tehl_taichi as tehl
+from tehl_taichi.errors import typed_options
 from tehl_taichi.store.store import Store
 from tehl_taichi.values.coded_text import Reason, grid_option, reasons_of, unknown_of, without_options
 from tehl_taichi.values.coded_warning import CodedWarning, Kinds, coded_warning, lists, texts, warnings_of_lists, with_data
@@ -40,6 +43,34 @@ def test_a_scene_and_its_store_have_them(tmp_path):
         saved._commit(warning_codes=wrong)
         with pytest.raises(tehl.StoreError, match="'warning_codes' holds"):
             tehl.open(saved.path)
+
+
+THIN = {"grid.nx": 64, "thermal.on": False, "speed": 0.3}
+
+
+def test_warnings_name_arguments_in_python_and_options_on_the_command_line(tmp_path):
+    """Whoever wrote the store: it keeps the options, and a page has words of its own."""
+    scene = tehl.scene("smooth-line").replace(**THIN)
+    run = tehl.run(scene, tmp_path / "a.zarr")
+    film = next(one for one in run.warnings if one.code == "film")
+    assert film in scene.warnings() and film.endswith("use grid.nx=128") and film in run.summary["warnings"]
+    assert any("thermal.on=True" in what for what in run.summary["left_out"]) and run.summary["left_out"] == scene.left_out()
+    for said in (run.warnings, run.summary["warnings"], run.summary["left_out"], [run._repr_html_()]):
+        assert not any("--" in text for text in said)
+    done = json.loads(here("show", run.path, "--json").stdout)
+    assert "use --grid 128" in str(done["warnings"]) and "--thermal" in str(done["left_out"])
+    assert done["warnings"] == [str(one) for one in run.store.warnings]
+    with typed_options():
+        assert run.summary == done and scene.warnings() == scene.typed_warnings != run.warnings
+    assert [without_options(one) for one in run.warnings] == [without_options(one) for one in run.store.warnings]
+    assert "a grid of 128 columns" in without_options(film)
+
+
+def test_progress_names_arguments_in_python(tmp_path):
+    said = io.StringIO()
+    tehl.run(tehl.scene("smooth-line").replace(**THIN), tmp_path / "a.zarr", progress=tehl.Lines(said))
+    assert "use grid.nx=128" in said.getvalue() and "thermal.on=True computes them" in said.getvalue()
+    assert "--" not in said.getvalue()
 
 
 def test_a_summary_has_sentences_codes_and_numbers_in_one_order(tmp_path):

@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 from tehl_taichi.disk import files
-from tehl_taichi.errors import Error, StoreError
+from tehl_taichi.errors import Error, StoreError, for_reader
 from tehl_taichi.runs import place_warnings
 from tehl_taichi.runs.bearing import ellipse_slip, kinematics, load_distribution, ring_contacts, ring_scenes, stiffness
 from tehl_taichi.runs.bearing.bearing_source import bearing_source
@@ -20,6 +20,7 @@ from tehl_taichi.runs.bearing.stored_bearing import Bearing
 from tehl_taichi.runs.flank.flank_run import all_changes, first_free_folder
 from tehl_taichi.runs.flank.outcomes import computed, stored_outcomes
 from tehl_taichi.runs.progress import Progress, progress_of
+from tehl_taichi.runs.sweep import pool
 from tehl_taichi.scene import Scene, grid_for_features, scene_file
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.film_formula import formula_words, heated_film, spread
@@ -57,6 +58,7 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     """Compute a bearing: see :func:`tehl_taichi.bearing`."""
     choice("on", on, RINGS)
     flag("run", run)
+    pool.check_numbers(workers, threads, "--threads")
     table("dimensions", dimensions or {}, "{key: value}, as in {'clearance': 10e-6}")
     if roughness is not None:
         roughness = in_unit("roughness", roughness, "m")
@@ -88,7 +90,7 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
 
 def _with_scene_warnings(made, rings):
     """Copy of a Bearing with the warnings of the scenes that have not run: those of a run contain them."""
-    scenes = [(ring, None, lists(case.scene.warnings())) for ring, case in rings.items() if not made.rings[ring]["summary"]]
+    scenes = [(ring, None, lists(case.scene.typed_warnings)) for ring, case in rings.items() if not made.rings[ring]["summary"]]
     found = place_warnings.of(scenes, "{} ring".format)
     return Bearing(made.folder, {**made.record, "warnings": [*made.record["warnings"], *found]})
 
@@ -96,7 +98,7 @@ def _with_scene_warnings(made, rings):
 def _report(progress, rings, doubts):
     """Report the grids that were chosen, and the keys without effect."""
     for case in (case for case in rings.values() if case.grid):
-        progress.say(case.grid)
+        progress.say(for_reader(case.grid))
     for sentence in doubts:
         progress.warn(sentence)
 

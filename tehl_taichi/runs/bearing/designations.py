@@ -55,7 +55,7 @@ DESIGNATIONS = {
                               dict(element="roller", diameter=10e-3, count=14, pitch_diameter=65e-3, length=9.6e-3,
                                    clearance=41e-6), HARRIS, ()),
 }
-MEANT = "give its elements by --ball-diameter, --balls and --pitch-diameter (rollers: tehl roller), or a TOML file"
+MEANT = "give its elements by --ball-diameter, --balls and --pitch-diameter (rollers: `tehl roller`), or a TOML file"
 
 
 def key_of(name):

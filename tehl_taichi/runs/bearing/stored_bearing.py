@@ -5,6 +5,7 @@ from tehl_taichi.runs.bearing import bearing_table
 from tehl_taichi.runs.bearing.bearing_source import as_given
 from tehl_taichi.runs.bearing.ring_contacts import RINGS
 from tehl_taichi.runs.contact_set import ContactSet
+from tehl_taichi.values.coded_warning import summary_for_reader
 
 
 class Bearing(ContactSet):
@@ -31,7 +32,7 @@ class Bearing(ContactSet):
     @property
     def rings(self) -> dict:
         """{"inner", "outer": record of its contact, with its summary}."""
-        return {ring: self.record[ring] for ring in RINGS}
+        return {ring: {**one, "summary": summary_for_reader(one["summary"])} for ring in RINGS for one in (self.record[ring],)}
 
     @property
     def _contacts(self):

@@ -3,7 +3,7 @@
 import dataclasses
 from os import PathLike
 
-from tehl_taichi.errors import SceneError
+from tehl_taichi.errors import SceneError, for_reader
 from tehl_taichi.runs.bearing.ring_scenes import base_of, smooth
 from tehl_taichi.runs.cam import cam_columns, cam_table, stored_cam
 from tehl_taichi.runs.cam.stored_cam import Cam
@@ -47,7 +47,7 @@ def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene |
     made = Cam(target, cam_record(path, target, places, scenes))
     Cam.check_writable(target, made)
     for grid in (grid for _, grid in found.values() if grid):
-        progress_of(progress).say(grid)
+        progress_of(progress).say(for_reader(grid))
     numbers, films = list(scenes), list(scenes.values())
     return computed(made, lambda one, n, outcome: one.with_position(numbers[n], outcome), films, workers, threads, progress)
 

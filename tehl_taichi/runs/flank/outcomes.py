@@ -71,7 +71,7 @@ def _stored_outcome(scene, path):
     check_version(path, stored)
     if stored.scene != scene:
         raise StoreError(f"{path} holds another scene ({stored.scene.name} with other values); choose another folder")
-    return Outcome(path, stored.summary) if stored.finished else None
+    return Outcome(path, stored.store.summary) if stored.finished else None
 
 
 def _run(places, todo, workers, threads, progress, folder):

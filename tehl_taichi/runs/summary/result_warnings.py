@@ -37,7 +37,7 @@ def warnings(store, summary):
     found = coded_warning(checks, store, summary)
     kinds = {one.code for one in found}
     at_start = [one for one in store.warnings if one.code in OF_USER]
-    return unique([*(one for one in (*store.scene.warnings(), *at_start) if one.code not in kinds), *found])
+    return unique([*(one for one in (*store.scene.typed_warnings, *at_start) if one.code not in kinds), *found])
 
 
 def reached_maxima(store):

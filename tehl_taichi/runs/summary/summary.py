@@ -12,7 +12,7 @@ from tehl_taichi.march.accuracy.coarse_runs import FI, RUN_IN, distributions, in
 from tehl_taichi.runs.summary import life, result_warnings
 from tehl_taichi.runs.summary.film_warnings import worst_ripple
 from tehl_taichi.runs.summary.search_rows import nearest_to_yield
-from tehl_taichi.scene import surface_roughness
+from tehl_taichi.scene import left_out, surface_roughness
 from tehl_taichi.scene.film_formula import central_film, formula_words, spread
 from tehl_taichi.scene.scales import Scales, peclet
 from tehl_taichi.scene.scene_warnings import preview
@@ -40,7 +40,7 @@ def summarise(store, extra, searches=None):
            "wall_s": extra["wall_s"], "compile_s": extra["compile_s"], "steps": int(store.series["step"][len(store) - 1]),
            **grid_counts(store),
            "hertz": _hertz(scales), **_peclet(scene, scales), "domain": {**domain_of(scene), **_sides(extra)},
-           "left_out": scene.left_out(),
+           "left_out": left_out.parts(scene),
            "steady": _steady(store, extra)}
     out |= _roughness(scene, out["steady"])
     if len(store) > 1:

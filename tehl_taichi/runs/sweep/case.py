@@ -58,7 +58,7 @@ def _run(job, path, progress):
     from tehl_taichi.runs import single_run
 
     _take_over_lock(path)
-    return single_run.run_or_resume(job.scene, path, threads=job.threads, progress=progress).summary
+    return single_run.run_or_resume(job.scene, path, threads=job.threads, progress=progress).store.summary
 
 
 def _take_over_lock(path):

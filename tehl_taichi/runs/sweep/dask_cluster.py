@@ -19,7 +19,7 @@ def results(work, jobs, scheduler, say_line):
     distributed = _distributed()
     with _client(distributed, scheduler) as client:
         if not client.nthreads():
-            say_line("no worker is connected yet; start one (on any machine: dask worker ADDRESS --nthreads 1)")
+            say_line("no worker is connected yet; start one (on any machine: `dask worker ADDRESS --nthreads 1`)")
         waiting, run = iter(enumerate(jobs)), uuid.uuid4().hex[:8]
         running: dict[Any, int] = {}
         ended = distributed.as_completed()

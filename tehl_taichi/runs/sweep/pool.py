@@ -57,9 +57,7 @@ def sizes(workers=None, threads=None, scheduler=None, jobs=MOST, words="--thread
 
     if workers is not None and scheduler is not None:
         raise SceneError(f"--workers {workers} and --scheduler contradict each other; a running cluster has its own workers")
-    for name, number in (("--workers", workers), (words, threads)):
-        if number is not None:
-            integer(name, plain(number), 1, MOST)
+    check_numbers(workers, threads, words)
     if scheduler is not None:
         return None, threads or 1
     if workers is None:
@@ -67,6 +65,13 @@ def sizes(workers=None, threads=None, scheduler=None, jobs=MOST, words="--thread
         return workers, threads or (1 if workers > 1 else None)
     workers = min(workers, max(1, jobs))
     return workers, threads or (max(1, cores.available() // workers) if workers > 1 else None)
+
+
+def check_numbers(workers, threads, words):
+    """Refuse numbers of processes and threads that no machine has. Raises SceneError."""
+    for name, number in (("--workers", workers), (words, threads)):
+        if number is not None:
+            integer(name, plain(number), 1, MOST)
 
 
 def check(workers, threads, scheduler=None):

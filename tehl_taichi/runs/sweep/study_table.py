@@ -31,6 +31,7 @@ from tehl_taichi.runs.sweep.plan import ONE, Plan, unit
 from tehl_taichi.store import array_file
 from tehl_taichi.store.integrity import ROOT, missing_choice
 from tehl_taichi.values.checks import integer
+from tehl_taichi.values.coded_warning import summary_for_reader
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import cell
@@ -174,7 +175,8 @@ class Study(LockedFolder):
         "seconds", "summary".
         """
         last = {record["case"]: record for record in records.read(self.path) if record["case"] < len(self)}
-        return [{**last[n], "converged": last[n]["status"] == "converged", "store": self._full(last[n].get("store"))}
+        return [{**last[n], "converged": last[n]["status"] == "converged", "store": self._full(last[n].get("store")),
+                 "summary": summary_for_reader(last[n].get("summary"))}
                 for n in sorted(last)]
 
     def _full(self, store):

@@ -325,7 +325,7 @@ def test_a_wrong_file_is_refused_in_a_sentence(tmp_path, text, said):
 
 
 @pytest.mark.parametrize("options, said", [
-    (dict(what="6207"), "'6207' are not in the table .*did you mean '620[356]'.*give its elements by --ball-diameter"),
+    (dict(what="6207"), "'6207' are not in the table .*did you mean '620[356]'.*give its elements by dimensions: diameter"),
     (dict(what=3), "bearing = 3 is not a path"),
     (dict(on="left"), "on = 'left' is not known; allowed: inner, outer"),
     (dict(roughness=0.1), "roughness = 0.1 m is out of range"),
@@ -453,9 +453,21 @@ def test_nothing_else_is_written_into_the_folder_of_a_bearing(dry):
 
 
 def test_the_file_that_makes_a_folder_one_of_results_is_named(tmp_path):
-    (tmp_path / "bearing.json").write_text("{}")  # what a user saved of --json
-    with pytest.raises(StoreError, match=r"results of tehl \(bearing.json\); choose another path"):
-        user_files.check(tmp_path / "runs" / "gear-1.zarr")
+    tehl.bearing("6206", **DUTY, run=False, folder=tmp_path / "b")
+    for place in ("x.png", "runs/gear-1.zarr"):
+        with pytest.raises(StoreError, match=r"results of tehl \(bearing.json\); choose another path"):
+            user_files.check(tmp_path / "b" / place)
+
+
+@pytest.mark.parametrize("name", ["bearing.json", "flank.json", "cam.json"])
+def test_saved_output_of_json_makes_no_folder_one_of_results(tmp_path, name):
+    """The shell makes the file before the command starts: `tehl bearing 6206 --json > bearing.json`."""
+    (tmp_path / name).touch()
+    found = here("bearing", "6206", "--no-run", "--json", "--no-figure", cwd=tmp_path)
+    assert found.returncode == 0, found.stderr
+    (tmp_path / name).write_text(found.stdout)
+    assert here("bearing", "6206", "--no-run", "--no-figure", cwd=tmp_path).returncode == 0
+    assert {one.name for one in tmp_path.iterdir()} == {name, "runs"} and len([*(tmp_path / "runs").iterdir()]) == 2
 
 
 @pytest.mark.parametrize("words, said", [

@@ -227,7 +227,7 @@ def test_tehl_run_shows_the_map_before_it_computes_anything(taichi_cpu, tmp_path
 def test_a_map_finer_than_the_grid_is_doubted_and_the_grid_named_is_fine(tmp_path):
     rough = with_map(wave(tmp_path, length=60.0))
     (sentence,) = doubts(rough)
-    assert "on this grid the" in sentence and sentence in rough.warnings()
+    assert "on this grid the" in sentence and sentence in rough.typed_warnings
     nx, ny = sentence.split("--grid ")[1].split()[0].split("x")
     assert doubts(rough.replace(**{"grid.nx": int(nx), "grid.ny": int(ny)})) == []
     assert doubts(rough.replace(**{"grid.nx": int(nx) // 2, "grid.ny": int(ny) // 2})) != []
