@@ -2,6 +2,7 @@
 
 import ast
 import importlib.util
+import inspect
 import re
 import subprocess
 import sys
@@ -15,7 +16,9 @@ from tehl_cli.main import app
 
 from tehl_taichi.laws.choices import CHOICES
 from tehl_taichi.laws.criteria import CRITERIA
-from tehl_taichi.scene import scene, scene_file
+from tehl_taichi.runs.summary import result_warnings
+from tehl_taichi.scene import domain, scene, scene_file, scene_warnings
+from tehl_taichi.scene.surface.maps import map_warnings
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted((ROOT / "docs").glob("*.md"))
@@ -55,7 +58,12 @@ def test_the_reference_has_the_words_of_new_scene_files():
 
 def texts_of(path):
     """Every text of a source file, with … for what is filled in."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    return parts_of(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+
+
+def parts_of(nodes):
+    """Texts among nodes of a syntax tree, as :func:`texts_of`."""
+    for node in nodes:
         if isinstance(node, ast.JoinedStr):
             yield "".join(part.value if isinstance(part, ast.Constant) else SPOKEN for part in node.values)
         elif isinstance(node, ast.Constant) and isinstance(node.value, str):
@@ -79,6 +87,44 @@ def test_every_message_of_the_troubleshooting_page_is_one_of_the_code():
     messages = re.findall(r"^### `(.*)`$", page, re.M)
     assert len(messages) > 40
     assert [message for message in messages if not any(says(text, message) for text in texts)] == []
+
+
+def text_of(node, named):
+    """Text of an expression, with … for what is filled in; named: {name: text} of the function around it."""
+    if isinstance(node, ast.Name):
+        return named.get(node.id, SPOKEN)
+    if isinstance(node, ast.BinOp):
+        return text_of(node.left, named) + text_of(node.right, named)
+    if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "with_data":
+        return text_of(node.args[0], named)
+    return next(iter(parts_of([node])), SPOKEN)
+
+
+def sentences_of(function):
+    """Sentences that a check yields or makes, by :func:`text_of`."""
+    nodes = list(ast.walk(function))
+    assigned = [node for node in nodes if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)]
+    named = {node.targets[0].id: text_of(node.value, {}) for node in assigned}
+    inside = [node.value.elt if isinstance(node.value, ast.GeneratorExp) else node.value for node in nodes
+              if isinstance(node, ast.Yield | ast.YieldFrom) and node.value]
+    made = [node for node in nodes if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "with_data"]
+    return {text for node in (*inside, *made) if len(text := text_of(node, named)) > 20}
+
+
+CHECKED = {*scene_warnings.CHECKS, *result_warnings.CHECKS, *result_warnings.ROUGH_CHECKS, map_warnings.doubts}
+SHOWN_BEFORE = {"lines", "_roughness", "form"}  # functions of sentences about features that warn of nothing
+JOINED = {"_rough"}  # of sentences whose parts have entries
+
+
+def test_every_warning_has_an_entry_on_the_troubleshooting_page():
+    page = (ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
+    messages = [one for one in re.findall(r"`([^`\n]*)`", page) if one.count(" ") > 2 and not one.startswith("tehl ")]
+    files = {inspect.getsourcefile(check) for check in CHECKED} | {domain.__file__}
+    functions = [node for file in files for node in ast.walk(ast.parse(Path(file).read_text(encoding="utf-8")))
+                 if isinstance(node, ast.FunctionDef) and node.name not in SHOWN_BEFORE | JOINED]
+    warnings = {text for function in functions for text in sentences_of(function)}
+    assert len(warnings) > 45
+    assert [text for text in warnings if not any(says(text, message) for message in messages)] == []
 
 
 def test_every_law_and_criterion_stands_in_the_theory():
