@@ -1,6 +1,7 @@
 """Accuracy: error against run time, for steady and passing scenes; which grid is enough for 5 %, 1 % and 0.1 %."""
 
 import math
+import textwrap
 import time
 
 import numpy as np
@@ -20,6 +21,7 @@ QUICK = {"steady line": (64, 128, 256), "steady circle": (32, 64, 128), "passage
 # (columns, factor of a window that moves with the feature over the whole passage) of a family
 WINDOWS = {family: ((64, 4), (64, 8), (128, 2), (128, 4)) for family in ("passage", "thermal passage")}
 QUICK_WINDOWS = {"passage": ((64, 2),)}
+CLOSE, LETTERS = 0.1, 46  # of the chart: difference of the logarithms of times whose numbers need two rows; width of a list
 QUANTITIES = ("h_c_m", "h_min_m", "p_max_Pa", "film_max_C", "Fi_max")
 # of a thermal passage on one grid, against REFERENCE. Not in it: the time step. Steps of whole cells carry the film nearly from
 # node to node; shorter ones interpolate it more often, which costs film where 128 columns hardly resolve it (256: 0.5 %)
@@ -186,14 +188,14 @@ def _coarsest(own, target):
 
 
 def chart(plt, rows):
-    """Error over run time, a panel per family; points carry their columns or the setting that was changed."""
+    """Error over run time, a panel per family; runs carry their columns or the setting that was changed."""
     families = list(dict.fromkeys(row["family"] for row in rows))
-    figure, axes = plt.subplots(1, len(families), figsize=(3.6 * len(families), 3.8), constrained_layout=True, squeeze=False)
+    figure, axes = plt.subplots(1, len(families), figsize=(3.6 * len(families), 4.2), constrained_layout=True, squeeze=False)
     for ax, family in zip(axes[0], families):
         own = [row for row in rows if row["family"] == family]
         for quantity in dict.fromkeys(row["quantity"] for row in own):
             _curve(ax, sorted((row for row in own if row["quantity"] == quantity), key=lambda row: row["seconds"]), quantity)
-        ax.set(title=family, xlabel="run time (s)", xscale="log", yscale="log")
+        ax.set(title=family, xlabel=f"run time (s)\n{_numbered(ax, own)}", xscale="log", yscale="log")
         ax.xaxis.set_major_locator(plt.matplotlib.ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
         ax.xaxis.set_major_formatter("{x:g}")
         ax.xaxis.set_minor_formatter("")
@@ -203,13 +205,28 @@ def chart(plt, rows):
 
 
 def _curve(ax, own, quantity):
-    """All points, joined along the front; each with its columns or its setting."""
-    points = [(row["seconds"], max(row["error"], 1e-8)) for row in own]
+    """All points, joined along the front."""
+    points = [_point(row) for row in own]
     color = f"C{QUANTITIES.index(quantity)}"
     ax.plot(*zip(*(point for point, row in zip(points, own) if row["front"])), "-", lw=1, label=quantity, color=color)
     ax.plot(*zip(*points), "o", ms=4, color=color)
-    for point, row in zip(points, own):
-        ax.annotate(str(row.get("setting", row["columns"])), point, fontsize=6, xytext=(3, 2), textcoords="offset points")
+
+
+def _numbered(ax, own):
+    """Numbers of the runs in order of time, each above its largest error; returns their list: columns or settings."""
+    runs: dict[str, list] = {}
+    for row in sorted(own, key=lambda row: row["seconds"]):
+        runs.setdefault(str(row.get("setting", row["columns"])), []).append(_point(row))
+    tops = [max(points, key=lambda point: point[1]) for points in runs.values()]
+    for number, top in enumerate(tops, 1):
+        near = sum(abs(math.log(top[0] / other[0])) < CLOSE for other in tops[:number - 1])
+        ax.annotate(str(number), top, fontsize=7, xytext=(0, 5 + 7 * near), textcoords="offset points", ha="center")
+    ax.margins(0.05, 0.3)
+    return textwrap.fill("; ".join(f"{number}: {name}".replace(" ", "\u00a0") for number, name in enumerate(runs, 1)), LETTERS)
+
+
+def _point(row):
+    return row["seconds"], max(row["error"], 1e-8)
 
 
 def grid_errors(rows):

@@ -98,6 +98,20 @@ def test_runs_with_a_window_are_held_against_the_limit_of_the_grids():
     assert accuracy.enough(rows) == accuracy.enough(alone) and accuracy.grid_errors(rows) == accuracy.grid_errors(alone)
 
 
+def test_the_chart_names_every_run_once_above_its_largest_error():
+    plt = pytest.importorskip("matplotlib.pyplot")
+    found = [(nx, 0.1 * nx, {"h_min_m": 1.0 + 640.0 / nx**2, "p_max_Pa": 1.0 + 6.4 / nx**2}) for nx in (64, 128, 256)]
+    rows = accuracy.judged("passage", found, [(64, 4, 6.5, {"h_min_m": 1.01, "p_max_Pa": 1.02})])
+    ax, = accuracy.chart(plt, rows).axes
+    marked = {text.get_text(): text for text in ax.texts}
+    seconds = {"1": (6.4, "64"), "2": (6.5, "64 zoom 4"), "3": (12.8, "128"), "4": (25.6, "256")}
+    assert {number: text.xy[0] for number, text in marked.items()} == {number: at for number, (at, _) in seconds.items()}
+    assert all(text.xy[1] == max(row["error"] for row in rows if row["seconds"] == text.xy[0]) for text in marked.values())
+    assert marked["2"].xyann[1] > marked["1"].xyann[1] == marked["3"].xyann[1]
+    assert ax.get_xlabel().replace("\u00a0", " ").split("\n", 1)[1].split("; ") == [
+        f"{number}: {name}" for number, (_, name) in seconds.items()]
+
+
 @pytest.mark.slow
 def test_a_window_on_a_coarse_grid_gives_what_a_fine_grid_does(taichi_cpu):
     coarse, fine = (accuracy.passage_values(accuracy.scene_of("passage", nx)) for nx in (64, 256))
