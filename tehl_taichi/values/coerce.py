@@ -14,12 +14,12 @@ DEEPEST = 8  # lists inside lists: nothing in a scene needs more than two
 
 def plain(value, depth=0):
     """`value` without numpy: its scalars as bool, int, float or str, arrays (also of pandas or xarray), lists and ranges as
-    tuples, paths as text. A :class:`Quantity` becomes a text with its unit, without one its number.
+    tuples, masked values as None, paths as text. A :class:`Quantity` becomes a text with its unit, without one its number.
     """
     if isinstance(value, Quantity):
         value = f"{float(value)!r} {value.unit}" if value.unit else value.value
     if hasattr(value, "__array__"):
-        value = float(value) if isinstance(value, np.longdouble) else np.asarray(value).tolist()
+        value = float(value) if isinstance(value, np.longdouble) else np.asanyarray(value).tolist()
     if isinstance(value, (list, tuple, range)) and depth < DEEPEST:
         return tuple(plain(item, depth + 1) for item in value)
     return os.fspath(value) if isinstance(value, os.PathLike) else value

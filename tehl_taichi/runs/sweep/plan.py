@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.sweep import axis_syntax
-from tehl_taichi.runs.sweep.sampling import latin_hypercube
+from tehl_taichi.runs.sweep.sampling import interval, latin_hypercube
 from tehl_taichi.scene import Scene, aliases, idle_keys
 from tehl_taichi.scene.unit_texts import column_in_units
 from tehl_taichi.values.checks import table
@@ -254,9 +254,7 @@ def _numbers(scene, key, column):
 def _choices(key, found):
     if not isinstance(key, str):
         raise SceneError(f"{', '.join(key)} change together; samples need independent keys")
-    if isinstance(found, tuple) and len(found) == 2:
-        return axis_syntax.column(f"{float(found[0])!r}:{float(found[1])!r}")
-    return axis_syntax.column(found)
+    return axis_syntax.column(interval(key, found) or found)
 
 
 def unit(scene, key):

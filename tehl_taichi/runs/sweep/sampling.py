@@ -3,7 +3,9 @@
 import numpy as np
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.runs.sweep.axis_syntax import DIGITS, Axis, Span, check_apart
+from tehl_taichi.runs.sweep.axis_syntax import DIGITS, Axis, Span, all_numbers, check_apart
+from tehl_taichi.values import checks, units
+from tehl_taichi.values.coerce import plain
 
 
 def latin_hypercube(columns, samples, seed=0, whole=()):
@@ -30,3 +32,25 @@ def _choose(values, share, whole):
         return values[int(share * len(values))]
     value = float(f"{values.at(share):.{DIGITS}g}")
     return round(value) if whole else value
+
+
+def interval(key, ends):
+    """Text "low:high" of a tuple of two ends; "" for other values, which are choices. Raises SceneError unless they are finite.
+
+    >>> interval("srr", (-0.1, "10%")), interval("rheology.law", ("eyring", "newtonian"))
+    ('-0.1:10%', '')
+    """
+    both = plain(ends) if isinstance(ends, tuple) and len(ends) == 2 else ()
+    return ":".join(_end(key, end) for end in both) if both and all(map(_is_end, both)) else ""
+
+
+def _is_end(value):
+    """Whether a value is a number, or the text of one with or without a unit."""
+    return bool(units.split(value)) if isinstance(value, str) else all_numbers([value])
+
+
+def _end(key, value):
+    if isinstance(value, str):
+        return value
+    checks.number(key, value)
+    return repr(float(value))

@@ -139,6 +139,32 @@ def test_equal_cases_of_equal_values_are_refused(over, samples, said):
         plan(GEAR, over, samples=samples)
 
 
+@pytest.mark.parametrize("typed, ends", [
+    ("-30%:30%", ("-30%", "30 %")), ("-0.3:0.3", (-0.3, np.float32(0.3).astype(float).round(2))), ("-0.3:0.3", ("-0.3", 0.3)),
+    ("-0.3:0.3", (np.array(-0.3), 0.3))])
+def test_the_ends_of_an_interval_may_be_typed(typed, ends):
+    assert plan(GEAR, {"srr": ends}, samples=5) == plan(GEAR, {"srr": typed}, samples=5)
+
+
+@pytest.mark.parametrize("ends, said", [
+    ((0.0, np.inf), "srr = inf must be finite"), ((np.nan, 0.1), "srr = nan is not a number"), ((10**400, 1), "out of range"),
+    ((0.2, "0.1"), "0.2:0.1: the first end must be smaller"), ((0, "1 kN"), "operation.srr = '0 kN': 'kN' is no unit of it")])
+def test_ends_that_are_none(ends, said):
+    with pytest.raises(SceneError, match=said):
+        plan(GEAR, {"srr": ends}, samples=2)
+
+
+def test_two_words_are_choices():
+    for two in (("eyring", "newtonian"), (True, False)):
+        key = "rheology.law" if "eyring" in two else "thermal.on"
+        assert plan(GEAR, {key: two}, samples=2, seed=1) == plan(GEAR, {key: list(two)}, samples=2, seed=1)
+
+
+def test_a_masked_value_is_no_value():
+    with pytest.raises(SceneError, match="operation.srr = None is not a number"):
+        plan(GEAR, {"srr": np.ma.array([0.1, 0.2], mask=[False, True])}).refused()
+
+
 def test_samples_may_share_a_value_of_one_key():
     assert plan(GEAR, {"srr": 0.1, "speed": "1:2"}, samples=3).count == 3 and plan(GEAR, {"srr": 0.1}, samples=1).count == 1
 
