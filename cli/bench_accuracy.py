@@ -101,7 +101,7 @@ def _coverage(results, seed, quick, judge, threads, as_json):
     path, name = results.file("json"), results.name
     if not judge:
         measure.fresh(threads, suite.run, path, seed, quick, say, name)
-    elif not path.exists():
+    elif not os.path.exists(path):
         raise StoreError(f"--judge: {path} does not exist. Run `tehl bench accuracy --only {name}` first")
     stored = json.loads(path.read_text())
     found = suite.table(stored["rows"])

@@ -1,6 +1,7 @@
 """Commit of this code, as far as known. Uses only the standard library, because the build of a wheel runs this file."""
 
 import functools
+import os
 import subprocess
 from pathlib import Path
 
@@ -16,13 +17,13 @@ def commit():
 
 def _written():
     """Commit in the file, if the build filled it in."""
-    text = FILE.read_text().strip() if FILE.is_file() else "$"
+    text = FILE.read_text().strip() if os.path.isfile(FILE) else "$"
     return None if text.startswith("$") or text == UNKNOWN else text[:LENGTH] + CHANGED * text.endswith(CHANGED)
 
 
 def _of_checkout(root):
     """Commit from git if the package lies at the top of a checkout (a virtual environment inside one does not count)."""
-    if not (root / ".git").exists():
+    if not os.path.exists(root / ".git"):
         return None
     try:
         head = _git(root, "rev-parse", f"--short={LENGTH}", "HEAD")

@@ -141,6 +141,15 @@ def test_one_room_writes_to_disk():
     assert found == WRITERS
 
 
+RAISES = re.compile(r"(?<!entry)\.(is_dir|is_file|exists)\(\)")
+
+
+def test_a_look_at_a_path_never_raises():
+    """Path.is_file raises for a name that is too long or a folder that is closed, os.path.isfile does not."""
+    ours = [path for path in SOURCES if path.is_relative_to(PACKAGE)]
+    assert [path.name for path in ours if RAISES.search(path.read_text(encoding="utf-8"))] == []
+
+
 def test_package_and_scene_do_not_import_taichi():
     code = "import sys, tehl_taichi, tehl_taichi.scene, tehl_cli.main; sys.exit('taichi' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0

@@ -1,5 +1,6 @@
 """Arguments of the Python interface of a wrong kind: a sentence, an error of this package, and nothing is left behind."""
 
+import os
 import pickle
 import subprocess
 import sys
@@ -50,6 +51,44 @@ def test_a_sentence(wrong, words, tmp_path):
     with pytest.raises(tehl.SceneError, match=words):
         wrong(tmp_path / "line.zarr")
     assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize("call", [
+    tehl.open, tehl.resume, tehl.zoom, tehl.scene, tehl.export, tehl.report, tehl.animate, tehl.fatigue, tehl.crack, tehl.run,
+    tehl.compare, tehl.flank, tehl.bearing, tehl.cam, tehl.simulate, lambda path: tehl.run(LINE, path),
+    lambda path: tehl.sweep(LINE, {"srr": [0.0]}, path), lambda path: tehl.traction(LINE, path=path),
+    lambda path: tehl.flank(folder=path), lambda path: tehl.report("none.zarr", path), lambda path: tehl.animate("x", path),
+    lambda path: tehl.export("none.zarr", path=path), lambda path: tehl.scene("gear").replace(table=path),
+    lambda path: tehl.scene("rough").replace(**{"feature.file": path})])
+@pytest.mark.parametrize("name", ["x" * 300, "some/" + "x" * 5000, "loop/inside"])
+def test_a_path_that_cannot_be_looked_at(call, name, tmp_path, monkeypatch):
+    """Names longer than the system allows, and a link to itself."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "loop").symlink_to("loop")
+    with pytest.raises(tehl.Error):
+        call(name)
+    assert [path.name for path in tmp_path.iterdir()] == ["loop"]
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root may become another user")
+def test_a_folder_that_is_closed_to_this_user(tmp_path):
+    """The system's reason is given, and never that nothing exists there."""
+    (tmp_path / "closed" / "line.zarr").mkdir(parents=True, mode=0o700)
+    code = f"""
+import os, tehl_taichi as tehl
+def said(path):  # at the first call modules are imported, which only their owner may read
+    for call in tehl.open, tehl.resume, tehl.scene, tehl.zoom, tehl.export, tehl.report, tehl.fatigue, tehl.flank, tehl.bearing:
+        try:
+            call(path)
+        except tehl.Error as error:
+            yield str(error).endswith(": Permission denied")
+print(sum(said("none.zarr")))
+os.seteuid(65534)
+print(sum(said({str(tmp_path / "closed" / "line.zarr")!r})))
+"""
+    tmp_path.chmod(0o755), (tmp_path / "closed").chmod(0o700)
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert out.stdout.split() == ["0", "9"], out.stderr
 
 
 @pytest.mark.usefixtures("taichi_cpu")

@@ -1,5 +1,6 @@
 """Residual stress along the surface: a number, or rows of depth and stress, linear between them and constant beyond."""
 
+import os
 import re
 from pathlib import Path
 
@@ -63,7 +64,7 @@ def read(text):
     except ValueError:
         pass
     path = Path(text)
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise SceneError(f"--residual {text!r} is neither a stress in Pa nor a file")
     try:
         return _rows(rows_of(COMMENT.sub("", path.read_text(encoding="utf-8-sig"))))

@@ -9,6 +9,7 @@ Each has a lock; one whose lock does not belong to this program is left alone.
 """
 
 import contextlib
+import fnmatch
 import os
 import shutil
 from pathlib import Path
@@ -122,7 +123,7 @@ class Draft:
 
 def _put(made, path, replaces):
     """Rename; a file does not overwrite another one unless it replaces it."""
-    if made.is_dir() or replaces:
+    if os.path.isdir(made) or replaces:
         os.rename(made, path)
         return
     try:
@@ -143,17 +144,26 @@ def put_back(path):
 
 def clean(folder):
     """Remove unfinished drafts of killed processes of this host in `folder`; an old store only if a new one exists."""
+    names = _names(folder)
     for what in (PART, GONE, OLD):
-        for leftover in folder.glob(f".*.{what}"):
+        for leftover in (Path(folder) / name for name in fnmatch.filter(names, f".*.{what}")):
             new = folder / leftover.name[1 : -len(what) - 1]
             if _ours(leftover) and is_abandoned(leftover) and (what != OLD or _replaced(leftover, new)):
                 with contextlib.suppress(Busy, OSError):  # another process takes it over, or cleans too
                     remove(leftover, Lock(leftover))
 
 
+def _names(folder):
+    """Names in a folder; [] if it cannot be read."""
+    try:
+        return os.listdir(folder)
+    except OSError:
+        return []
+
+
 def _replaced(old, new):
     """Whether a folder of the same kind has replaced the old one."""
-    return is_folder(new) and (new / ROOT).is_file() >= (old / ROOT).is_file()
+    return is_folder(new) and os.path.isfile(new / ROOT) >= os.path.isfile(old / ROOT)
 
 
 def _ours(folder):
@@ -187,7 +197,7 @@ def unfinished_error(path):
 
 def _parents(path):
     """Missing folders above `path`, the innermost first."""
-    return [folder for folder in path.absolute().parents if not folder.exists()]
+    return [folder for folder in path.absolute().parents if not os.path.exists(folder)]
 
 
 def remove(folder, lock):

@@ -1,6 +1,7 @@
 """Page of a rolling bearing, from its folder: static safety and film first, then loads, contacts and slip."""
 
 import dataclasses
+import os
 from pathlib import Path
 
 from tehl_taichi.fatigue.judged_surfaces import others
@@ -54,7 +55,7 @@ def _store(found):
     order = sorted(found.rings, key=lambda ring: ("fatigue" not in (found.rings[ring]["summary"] or {}),
                                                   found.rings[ring]["static_safety"]))
     path = found.folder / Path(found.rings[order[0]]["store"]).name
-    return Reader.open(path) if path.exists() else None, order[0]
+    return Reader.open(path) if os.path.exists(path) else None, order[0]
 
 
 def answer(found):

@@ -10,7 +10,7 @@ from tehl_taichi.report.document import links
 def write(found, force, written):
     """Write the page of every finished position without one (force: of all); written(store, path) writes one."""
     for _, store, path in _pages(found):
-        if store.finished and (force or not path.exists()):
+        if store.finished and (force or not os.path.exists(path)):
             user_files.check(path, force, "html", of=found.folder)
             written(store, path)
 
@@ -19,7 +19,7 @@ def line(found, out, words):
     """Links to existing pages; out: file of the page with the links, None: no links; words(position): link text."""
     if out is None:
         return None
-    rows = [(words(at), _relative(path, out)) for at, _, path in _pages(found) if path.exists()]
+    rows = [(words(at), _relative(path, out)) for at, _, path in _pages(found) if os.path.exists(path)]
     return links(rows, "Pages of the positions")
 
 

@@ -60,7 +60,7 @@ class ContactSet:
     @classmethod
     def lies_in(cls, folder: str | PathLike) -> bool:
         """Whether the folder contains results of this kind."""
-        return cls._file(folder).is_file()
+        return os.path.isfile(cls._file(folder))
 
     @classmethod
     def check_writable(cls, folder: Path, own: Self | None = None) -> None:
@@ -146,7 +146,7 @@ class ContactSet:
         integer("number", number, 0, len(self._contacts) - 1)
         path = self.folder / Path(self._contacts[number].get("store") or "none").name
         with contextlib.suppress(StoreError):
-            return Store.open(path) if path.is_dir() else None
+            return Store.open(path) if os.path.isdir(path) else None
         return None
 
     def to_dict(self) -> dict:

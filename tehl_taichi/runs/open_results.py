@@ -1,5 +1,6 @@
 """Opening of any results folder: a run's store, a study, a flank, a bearing, a cam."""
 
+import os
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -64,7 +65,7 @@ def _run(path, stand_in=False):
     try:
         return single_run.open(path, stand_in)
     except StoreError:
-        if Path(path).is_dir() and not (Path(path) / ROOT).exists():
+        if os.path.isdir(path) and not os.path.exists(Path(path) / ROOT):
             raise StoreError(f"{path} is not a run, study, flank, bearing or cam: it has none of {ROOT}, "
                              "flank.json, bearing.json and cam.json") from None
         raise

@@ -66,7 +66,7 @@ def check_new(path):
         raise SceneError(f"{path} must be the name of a TOML file, as in {example}")
     if os.path.lexists(path):
         raise SceneError(f"{path} exists already; choose another name")
-    if not path.absolute().parent.is_dir():
+    if not os.path.isdir(path.absolute().parent):
         raise SceneError(f"{path.absolute().parent} is not a folder")
 
 

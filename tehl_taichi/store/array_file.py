@@ -8,6 +8,7 @@ import contextlib
 import functools
 import json
 import math
+import os
 from pathlib import Path
 
 import numpy as np
@@ -123,7 +124,7 @@ def _of_one_chunk(folder):
     if kind == "string" or not _as_ours(array, described(shape, shape, kind, (), 0, {})):
         return None
     file = chunk_file(folder, len(shape))
-    if not file.exists():
+    if not os.path.exists(file):
         return None
     return chunks.read(file, np.dtype(kind).newbyteorder("<"), math.prod(shape)).reshape(shape).astype(kind)
 

@@ -1,5 +1,6 @@
 """Checkpoints: one .npz file each (with checksums), named by the number of entries before it."""
 
+import os
 import zipfile
 import zlib
 
@@ -35,7 +36,7 @@ def load_last(store, folder, steps, shape):
         raise StoreError(f"{store} holds no checkpoint, so it cannot be resumed; `tehl run {typed(store)} --out NEW` repeats "
                          "the run")
     try:
-        state = npy.load_all(folder / f"{number}.npz") if (folder / f"{number}.npz").is_file() else {}
+        state = npy.load_all(folder / f"{number}.npz") if os.path.isfile(folder / f"{number}.npz") else {}
     except (OSError, ValueError, KeyError, EOFError, AttributeError, NotImplementedError, zipfile.BadZipFile, zlib.error):
         state = {}
     if not NEEDED <= state.keys() or state["P"].shape != shape:

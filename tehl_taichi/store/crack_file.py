@@ -1,6 +1,7 @@
 """Result of `tehl crack`, kept beside the store of its run for the report: STORE with .crack.json."""
 
 import json
+import os
 
 import numpy as np
 
@@ -35,7 +36,7 @@ def save(result, store):
 def load(store):
     """{"summary", "drawn"} of the stored crack result of a run, or None. Raises StoreError if it is damaged."""
     path = path_of(store.path)
-    if not path.is_file():
+    if not os.path.isfile(path):
         return None
     try:
         content = files.json_of(path)

@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import os
 import re
 from pathlib import Path
 
@@ -45,9 +46,9 @@ def _of_array(folder):
     """Whether a folder is that of an array, also of one that a killed process has begun: zarr first writes the metadata under
     another name.
     """
-    if (folder / ROOT).is_file():
+    if os.path.isfile(folder / ROOT):
         return True
-    return folder.is_dir() and all(part.name.endswith(".partial") for part in folder.iterdir())
+    return os.path.isdir(folder) and all(part.name.endswith(".partial") for part in folder.iterdir())
 
 
 def root_of(path):
@@ -58,8 +59,8 @@ def root_of(path):
         attrs = root["attributes"]
         arrays = root["consolidated_metadata"]["metadata"]
     except FileNotFoundError:
-        raise StoreError(f"{path} is not a store of tehl run: " +
-                         (f"it has no {ROOT}" if path.is_dir() else f"the folder does not exist{near_file(path)}")) from None
+        why = f"it has no {ROOT}" if os.path.isdir(path) else f"the folder does not exist{near_file(path)}"
+        raise StoreError(f"{path} is not a store of tehl run: {why}") from None
     except OSError as error:
         raise StoreError(f"{path} is not a store of tehl run: {error.strerror or error}") from None
     except (ValueError, KeyError, TypeError, RecursionError):
@@ -145,7 +146,7 @@ def check(path, attrs, arrays, scene, needed):
 def check_folders(path, names):
     """Refuse to continue a store without the folder of one of these arrays."""
     for name in names:
-        if not (path / name).is_dir():
+        if not os.path.isdir(path / name):
             raise damage_error(path, f"the folder of its array {name!r} is missing")
 
 

@@ -36,15 +36,15 @@ def named_in(file, data):
     name = data.get("scene", "gear")
     text("scene", name)
     beside = Path(file).parent / name
-    return str(beside) if name not in BUILT_INS and (ending(name) == ".toml" or beside.exists()) else name
+    return str(beside) if name not in BUILT_INS and (ending(name) == ".toml" or os.path.exists(beside)) else name
 
 
 def _is_file(path):
-    return ending(path) == ".toml" or path.exists() and not _is_store(path)
+    return ending(path) == ".toml" or os.path.exists(path) and not _is_store(path)
 
 
 def _is_store(path):
-    return path.is_dir() and (path / "zarr.json").exists()
+    return os.path.isdir(path) and os.path.exists(path / "zarr.json")
 
 
 def _stored(path):

@@ -1,6 +1,7 @@
 """Reader of a store: scene, series, fields, maps and summary. It writes nothing, except to undo half a replacement."""
 
 import math
+import os
 from collections.abc import Iterable
 from functools import cached_property
 from pathlib import Path
@@ -49,7 +50,7 @@ class Reader:
     @classmethod
     def _opened(cls, path, lock, stand_in=False):
         put_back(path)
-        if not path.exists() and (why := unfinished_error(path)):
+        if not os.path.exists(path) and (why := unfinished_error(path)):
             raise why
         store = cls(path, lock, stand_in)
         needed = {name: ["x", "y"] for name in store.stored} | {name: [] for name in store.names}

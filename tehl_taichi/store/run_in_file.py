@@ -1,6 +1,7 @@
 """Files of a run-in between its passages: the common start of all passages and the result so far, beside the checkpoints."""
 
 import json
+import os
 import zipfile
 import zlib
 from dataclasses import asdict, fields
@@ -39,7 +40,7 @@ def read(path, needed=False):
     """Read the RunInState of the store at `path`; without one, the state before the first passage, unless `needed`. Raises
     StoreError.
     """
-    if not needed and not (path / CHECKPOINTS / f"{LEFT}.npz").is_file():
+    if not needed and not os.path.isfile(path / CHECKPOINTS / f"{LEFT}.npz"):
         return RunInState()
     found = _arrays(path, LEFT)
     try:

@@ -200,5 +200,5 @@ def _disk_errors(path, what_is_left, kind=Interrupted):
     try:
         yield
     except OSError as error:
-        why = reason(error) if Path(path).exists() else "it was moved or removed"
+        why = reason(error) if os.path.exists(path) else "it was moved or removed"
         raise kind(f"cannot write to {path}: {why}; {what_is_left}") from None

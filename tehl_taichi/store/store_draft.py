@@ -58,9 +58,9 @@ def removed(path):
 
 
 def _check_free(path):
-    if path.is_symlink() and not path.exists():
+    if path.is_symlink() and not os.path.exists(path):
         raise StoreError(f"{path} is a broken link; remove it or choose another --out")
-    if path.exists():
+    if os.path.exists(path):
         if integrity.is_store(path):
             raise StoreError(exists(path))
         raise StoreError(f"{path} exists already and is not a store; choose another --out")
@@ -72,7 +72,7 @@ def writable_folder(path):
     folder = path.absolute()
     while not os.path.lexists(folder):
         folder = folder.parent
-    if not folder.is_dir() or not os.access(folder, os.W_OK):
+    if not os.path.isdir(folder) or not os.access(folder, os.W_OK):
         raise StoreError(f"cannot write to {folder}: no permission, read-only or not a folder")
     return folder
 

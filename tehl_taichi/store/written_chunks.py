@@ -32,7 +32,7 @@ def _missing(folder, array, every):
     """Name of the first missing one of the chunks that the writer of the array has written; None if there is none."""
     if OURS not in array["codecs"]:
         return None
-    if not (every or array["dimension_names"][:1] == ["time"] or (folder / "c").is_dir()):  # made with the first chunk
+    if not (every or array["dimension_names"][:1] == ["time"] or os.path.isdir(folder / "c")):  # made with the first chunk
         return None
     files, needed = _files(folder), itertools.product(*map(range, _counts(array)))
     names = (name(array, numbers) for numbers in needed)

@@ -73,7 +73,18 @@ def integer(where, value, low, high):
 def missing_file(name):
     """Refuse an unknown name that is a path, or that of a TOML file without its ending. Raises SceneError."""
     if "." in name or "/" in name or os.path.isfile(f"{name}.toml"):
-        raise SceneError(f"{name} does not exist{near_file(name)}")
+        raise SceneError(f"{name} {why_absent(name)}")
+
+
+def why_absent(path):
+    """Text about a path that is no file: 'does not exist' with the nearest name, or the reason why it cannot be read."""
+    try:
+        os.stat(path)
+    except (FileNotFoundError, NotADirectoryError, ValueError):
+        return f"does not exist{near_file(path)}"
+    except OSError as error:
+        return f"cannot be read: {error.strerror}"
+    return "is not a file"
 
 
 def near_file(path):

@@ -37,7 +37,7 @@ def _entry_points():
 def _folder(name, who, beside=None):
     """Folder of a plugin; beside: folder of the file that names it. Raises SceneError."""
     for path in ((beside or Path()) / name, *_package(name)):
-        if path.is_dir():
+        if os.path.isdir(path):
             return path.absolute()
     raise SceneError(f"{who} = {name!r} is neither a folder nor a package that Python finds; correct it, or omit it")
 
@@ -78,7 +78,7 @@ def use_plugins_of(path):
 
 def _toml(path):
     """Dictionary of a TOML file, {} for other files."""
-    if not path.name.lower().endswith(".toml") or not path.is_file() or path.stat().st_size > LARGEST:
+    if not path.name.lower().endswith(".toml") or not os.path.isfile(path) or path.stat().st_size > LARGEST:
         return {}
     try:
         return tomllib.loads(path.read_text(encoding="utf-8-sig"))

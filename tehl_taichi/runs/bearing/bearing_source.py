@@ -1,6 +1,7 @@
 """Find a bearing by a designation, a TOML file, or its own dimensions."""
 
 import dataclasses
+import os
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
@@ -48,7 +49,7 @@ def bearing_source(what, given):
         changed = dataclasses.replace(what, **_known(given))
         return BearingSource("bearing", changed, "given")
     path = path_of("bearing", what)
-    if ending(path) == ".toml" or path.is_file() and not key_of(str(what)):
+    if ending(path) == ".toml" or os.path.isfile(path) and not key_of(str(what)):
         return _from_file(path, given)
     return _named(str(what), given)
 

@@ -1,6 +1,7 @@
 """Find a flank by a built-in pair, a TOML file, a CSV table, or a GearPair."""
 
 import dataclasses
+import os
 from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
@@ -68,7 +69,7 @@ def flank_source(what):
     path = path_of("gear", what)
     if ending(path) == ".csv":
         return FlankSource(path.stem, scene(), table=_rows(path), source=str(what))
-    if ending(path) == ".toml" or path.exists():
+    if ending(path) == ".toml" or os.path.exists(path):
         return _from_file(path)
     return FlankSource(str(what), scene(), gear_pair(str(what)))
 

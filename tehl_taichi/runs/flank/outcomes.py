@@ -1,5 +1,6 @@
 """Jobs of a flank: its scenes run in parallel or in this process; results in existing stores are reused."""
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -65,7 +66,7 @@ def stored_outcomes(scenes, folder):
 
 def _stored_outcome(scene, path):
     """Outcome in a finished store, None if the scene has to run. Raises StoreError."""
-    if not path.exists():
+    if not os.path.exists(path):
         return None
     stored = single_run.open(path)
     check_version(path, stored)

@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import StoreError
@@ -35,7 +36,7 @@ def read(folder):
 def mend(folder):
     """Cut off an incomplete last line of a killed writer, so that the next record begins on a new line."""
     path = folder / FILE
-    content = files.content(path, MOST) if path.exists() else b""
+    content = files.content(path, MOST) if os.path.exists(path) else b""
     if content and not content.endswith(b"\n"):
         files.truncate(path, content.rfind(b"\n") + 1)
 

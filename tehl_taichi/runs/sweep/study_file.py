@@ -1,5 +1,6 @@
 """Study files (TOML): a scene, changes common to all cases, and swept keys."""
 
+import os
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ KNOWN = ("scene", "set", "over", "together", "samples", "seed")
 def is_study_file(path):
     """Whether a file is a study: scene files have no table [over] or [[together]]."""
     path = Path(path)
-    if ending(path) != ".toml" or not path.is_file():
+    if ending(path) != ".toml" or not os.path.isfile(path):
         return False
     try:
         return bool({"over", "together"} & tomllib.loads(files.text(path)).keys())

@@ -10,6 +10,7 @@ import contextlib
 import csv
 import io
 import json
+import os
 import time
 from collections.abc import Iterator
 from os import PathLike
@@ -105,7 +106,7 @@ class Study(LockedFolder):
         """Raise StoreError if the study of `plan` cannot be written at `path`, because other results are there."""
         attrs = attributes(path)
         check_outside(path)
-        if attrs is None and (path.is_file() or path.is_dir() and any(path.iterdir())):
+        if attrs is None and (os.path.isfile(path) or os.path.isdir(path) and any(path.iterdir())):
             raise StoreError(f"{path} exists already and is not a study; choose another --out")
         if attrs is not None and (version := attrs.get("version", "unknown")) != __version__:
             raise StoreError(f"{path} was written by version {version}, this is {__version__}; cases of two versions are not "

@@ -1,5 +1,6 @@
 """Sweep: many runs of one scene with changes, written case by case into a study, in parallel, resumable."""
 
+import os
 from collections.abc import Callable, Mapping
 from os import PathLike
 from pathlib import Path
@@ -103,7 +104,7 @@ def _keep(study, number, answer, keep, progress):
     if isinstance(answer, LostJob):
         answer = {"status": "failed", "reason": answer.reason, "summary": None, "seconds": 0.0}
     store = study.store_of(number)
-    there = keep == "stores" and store.exists()
+    there = keep == "stores" and os.path.exists(store)
     record = {"case": number, "changes": study.plan.changes(number), **answer,
               "store": str(store.relative_to(study.path)) if there else None}
     study.add(record)

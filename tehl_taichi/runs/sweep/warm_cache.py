@@ -24,13 +24,13 @@ def ensure_kernels(scene):
     from tehl_taichi.engine.runtime import preferred_cache
 
     stamp = preferred_cache() / f"warm-{_kind(scene)}"
-    if stamp.exists():
+    if os.path.exists(stamp):
         return
     with contextlib.suppress(OSError):  # a read-only folder has no new kernels
         stamp.parent.mkdir(parents=True, exist_ok=True)
         with os.fdopen(files.open_plain(stamp.with_suffix(".lock"), os.O_RDWR | os.O_CREAT), "r+b") as lock:
             _wait_for(lock)
-            if not stamp.exists():
+            if not os.path.exists(stamp):
                 _compile(scene)
                 files.append(stamp, b"")
 

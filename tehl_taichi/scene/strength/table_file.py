@@ -1,5 +1,6 @@
 """Strength tables of users: CSV files with names and units in the first line."""
 
+import os
 from pathlib import Path
 
 from tehl_taichi.disk import files
@@ -48,7 +49,7 @@ def check(found):
 
 def _read(where, path, place):
     """Text of the file. Raises SceneError."""
-    if not path.is_file():
+    if not os.path.isfile(path):
         meant = nearest(place, PROFILES) or near_file(place)
         raise SceneError(f"{where} is neither a file nor a built-in profile{meant}; built in: {', '.join(PROFILES)}")
     try:

@@ -1,6 +1,7 @@
 """Animation of a run: GIF with the `plot` extra, MP4 if ffmpeg is available."""
 
 import contextlib
+import os
 import shutil
 import subprocess
 from os import PathLike
@@ -51,7 +52,7 @@ def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, 
 def _file(store, out, format, force):
     """(path, format) of the file to write. Raises SceneError, or StoreError if an existing file is in the way."""
     path = path_of("out", out) if out else store.path.with_name(store.path.name.removesuffix(".zarr"))
-    if out and path.is_dir():
+    if out and os.path.isdir(path):
         raise StoreError(f"{path} is a folder; --out takes the name of a file")
     ending = path.suffix[1:].lower() if out else ""
     format = format or ending or "gif"

@@ -207,7 +207,7 @@ def default_folder(path):
 def check_folder(folder):
     """Raise StoreError if the folder cannot be made."""
     there = next(path for path in (Path(folder).absolute(), *Path(folder).absolute().parents) if os.path.lexists(path))
-    if not there.is_dir():
+    if not os.path.isdir(there):
         raise StoreError(f"cannot put figures into {folder}: {there} is not a folder; choose another one")
 
 

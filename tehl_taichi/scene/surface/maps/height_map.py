@@ -6,6 +6,7 @@ was made from it, and a store that holds the heights needs no file.
 
 import hashlib
 import math
+import os
 import weakref
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +19,7 @@ from tehl_taichi.errors import SceneError, brief
 from tehl_taichi.scene.surface.maps import coordinates, instrument_files, line_profiles, text_heights
 from tehl_taichi.scene.surface.maps.stated_values import Stated
 from tehl_taichi.values.arrays import floats
-from tehl_taichi.values.checks import near_file
+from tehl_taichi.values.checks import why_absent
 from tehl_taichi.values.file_ending import ending
 
 ROWS = "rows"
@@ -96,9 +97,8 @@ def table_of(file):
     path = Path(file)
     if not file:
         raise SceneError("feature.file is missing: shape 'map' needs a file of heights (.csv, .txt, .asc, .npy)")
-    if not path.is_file():
-        why = "is not a file" if path.exists() else f"does not exist{near_file(file)}"
-        raise SceneError(f"feature.file = {str(file)!r} {why}")
+    if not os.path.isfile(path):
+        raise SceneError(f"feature.file = {str(file)!r} {why_absent(file)}")
     table = _load(path)
     profile = line_profiles.heights_of(table.values) is not None
     found = table.of_points() if not profile and coordinates.is_narrow(table.values) else None
