@@ -41,6 +41,17 @@ def test_every_public_name_says_what_it_is_and_shows_it(taichi_cpu, monkeypatch,
         assert runner.run(test).failed == 0
 
 
+OTHERS = sorted({*(path.relative_to(ROOT).with_suffix("") for path in (ROOT / "tehl_taichi").rglob("*.py")
+                  if ">>> " in path.read_text(encoding="utf-8"))}
+                - {Path(getattr(tehl, name).__module__.replace(".", "/")) for name in NAMES} - {Path("tehl_taichi/__init__")})
+
+
+@pytest.mark.parametrize("path", OTHERS, ids=str)
+def test_examples_of_inner_functions_hold(path):
+    found = doctest.testmod(importlib.import_module(".".join(path.parts)))
+    assert found.attempted and not found.failed
+
+
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_public_functions_are_plain_typed_and_say_what_goes_in_and_out(name):
     thing = getattr(tehl, name)

@@ -17,7 +17,7 @@ def slope(nu_40, nu_100):
     C.
 
     >>> round(slope(220e-6, 19e-6), 2)
-    3.42
+    3.39
     """
     doubled = [math.log10(math.log10(nu * 1e6 + 0.7)) for nu in (nu_40, nu_100)]
     return (doubled[0] - doubled[1]) / math.log10(373.15 / 313.15)

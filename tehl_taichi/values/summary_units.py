@@ -1,6 +1,7 @@
 """Units of numbers by the ends of their names, as in summaries."""
 
-UNITS = {"m": "m", "Pa": "Pa", "C": "degC", "K": "K", "s": "s", "deg": "degree", "J": "J", "W": "W", "N": "N", "kg": "kg"}
+UNITS = {"m": "m", "m2": "m2", "m3": "m3", "Pa": "Pa", "C": "degC", "K": "K", "s": "s", "deg": "degree", "J": "J", "W": "W",
+         "N": "N", "kg": "kg"}
 
 
 def unit_of(name):

@@ -17,7 +17,7 @@ def hint(value, unit, fits, usual=0.0):
     fits: function of a value in `unit`, whether it is allowed; usual: a value of the usual order (0: unknown), the nearest
     candidate is named.
 
-    >>> meant(206, "Pa", lambda value: value > 1e6, usual=2e11)
+    >>> hint(206, "Pa", lambda value: value > 1e6, usual=2e11)
     '; did you mean 206e9 Pa (206 GPa)?'
     """
     if unit == "deg C" and fits(value - KELVIN):

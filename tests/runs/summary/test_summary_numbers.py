@@ -9,6 +9,7 @@ import pytest
 from tehl_taichi.errors import UnknownName
 from tehl_taichi.runs.summary import search_rows, summary_numbers
 from tehl_taichi.runs.summary import summary as summaries
+from tehl_taichi.runs.sweep import summary_columns
 from tehl_taichi.scene import scene
 from tehl_taichi.values.estimate import Quantity
 
@@ -35,6 +36,14 @@ def test_numbers_of_the_pressure_or_the_contact_alone_are_found_by_their_part():
         assert not summary_numbers.contains(summary, name)
         with pytest.raises(UnknownName, match=f"did you mean '.*alone.{name}'"):
             summary_numbers.find(summary, name)
+
+
+def test_areas_and_volumes_have_their_units():
+    summary = {"fatigue": {"stressed": {"volume_m3": 2e-14, "area_m2": 3e-9, "track_equal_m2": 1e-6, "exponent": 20.0}}}
+    found = {name.rpartition(".")[2]: one.unit for name, one in summary_numbers.all_numbers(summary).items()}
+    assert found == {"volume_m3": "m3", "area_m2": "m2", "track_equal_m2": "m2", "exponent": ""}
+    assert summary_numbers.find(summary, "volume").value == 2e-14
+    assert summary_columns.unit_of("fatigue_stressed_area_m2") == "m2"
 
 
 def test_a_number_is_printed_by_any_format():
