@@ -16,7 +16,7 @@ def write(folder, scene):
     metadata of their arrays, {name: metadata}."""
     made: dict[str, Any] = {}
     for feature in scene.features:
-        if feature.kind.measured and not (folder / (name := _name(feature.sha256))).exists():
+        if feature.kind.measured and not os.path.exists(folder / (name := _name(feature.sha256))):
             made |= layout.whole(folder, name, np.asarray(feature.heights, float), [f"{name}_row", f"{name}_column"],
                                  feature.unit, "heights as in the file, neither turned nor levelled", sha256=feature.sha256,
                                  pixel_m=list(feature.file_steps), file=feature.file)
