@@ -11,6 +11,7 @@ from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
 from tehl_taichi.errors import Interrupted, stopped
+from tehl_taichi.runs.sweep.axis_syntax import short_word
 from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
 from tehl_taichi.values.digits import number_of, part_of
 from tehl_taichi.values.escape import typed
@@ -107,8 +108,7 @@ class SweepLive:
 
 def changes_words(record):
     """Keys and values of a case as text."""
-    return ", ".join(f"{key} = {value:g}" if isinstance(value, float) else f"{key} = {value}"
-                     for key, value in record["changes"].items())
+    return ", ".join(f"{key} = {short_word(value)}" for key, value in record["changes"].items())
 
 
 def case_words(record):
@@ -162,6 +162,6 @@ def _number(value, error):
 
 
 def _cells(study, row, columns):
-    keys = (f"{row[key]:g}" if isinstance(row[key], float) else str(row[key]) for key in study.plan.keys)
+    keys = (short_word(row[key]) for key in study.plan.keys)
     numbers = (_number(row[name] * factor, row.get(error_of(name), math.nan) * factor) for name, _, factor in columns)
     return [str(row["case"]), *keys, "ok" if row["status"] == "converged" else row["status"], *numbers]

@@ -7,6 +7,7 @@ import numpy as np
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, STUDY
+from tehl_taichi.runs.sweep.study_labels import with_unit
 from tehl_taichi.values.digits import printed_unit
 from tehl_taichi.view.figures import palette
 
@@ -73,7 +74,7 @@ def _axis(comparison):
     """(factor, label) of the axis."""
     one = comparison.tables[0]
     factor, unit = printed_unit(one.x_unit, max((abs(place.x) for place in comparison.places), default=0.0))
-    return factor, f"{one.across} ({unit})" if one.x_unit not in ("", "1") else one.across
+    return factor, with_unit(one.across, unit) if one.x_unit else one.across
 
 
 def _dress(ax, comparison):

@@ -13,6 +13,7 @@ from tehl_taichi.runs.flank import flank_columns
 from tehl_taichi.runs.flank.line_contacts import where
 from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, STUDY
 from tehl_taichi.runs.sweep import study_figures, summary_columns
+from tehl_taichi.runs.sweep.axis_syntax import DIGITS, all_numbers, short_word, word
 from tehl_taichi.runs.sweep.case_records import STATUS
 from tehl_taichi.runs.sweep.plan import unit
 from tehl_taichi.runs.sweep.study_labels import key_name
@@ -137,7 +138,7 @@ def _of_bearing(bearing):
 
 
 def _of_study(study):
-    keys, scene = sorted(study.plan.keys), study.plan.scene
+    keys, scene = sorted(study.plan.keys, key=full_name), study.plan.scene
     one = len(keys) == 1 and study_figures.numeric(study, keys[0])
     places = _cases(study, keys, one)
     numbers = {(name, place.key): (float(column[n]), _bar(study, name, n)) for name, column in study.values.items()
@@ -156,13 +157,14 @@ def _of_study(study):
 def _cases(study, keys, one):
     """Places of a study; one: whether its single key is a number, which then is the axis."""
     changes = [study.plan.changes(n) for n in range(len(study))]
-    return tuple(Place(tuple(map(repr, (change[key] for key in keys))),
-                       ", ".join(f"{key} = {_word(change[key])}" for key in keys), float(change[keys[0]] if one else n))
+    return tuple(Place(tuple(_same_value(change[key]) for key in keys),
+                       ", ".join(f"{key} = {short_word(change[key])}" for key in keys), float(change[keys[0]] if one else n))
                  for n, change in enumerate(changes))
 
 
-def _word(value):
-    return f"{value:g}" if isinstance(value, float) else str(value)
+def _same_value(value):
+    """Text that equal values share: 5 is 5.0, and a sum of tenths the tenth that it was meant to be."""
+    return f"{value:.{DIGITS}g}" if all_numbers([value]) else word(value)
 
 
 def _bar(study, name, n):
@@ -208,8 +210,8 @@ def settings(tables):
 def check_alike(tables):
     """Raise SceneError if studies do not sweep the same keys."""
     for other in tables[1:]:
-        first, second = (table.about.get("swept") for table in (tables[0], other))
-        if first != second:
+        first, second = (table.about.get("swept", "") for table in (tables[0], other))
+        if [*map(full_name, first.split(", "))] != [*map(full_name, second.split(", "))]:
             raise SceneError(f"{tables[0].folder} is over {first} and {other.folder} over {second}; allowed: studies over the "
                              "same keys")
 

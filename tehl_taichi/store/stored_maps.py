@@ -1,5 +1,6 @@
 """Height maps of a scene inside its store: it can be shown, resumed and run again without the map files."""
 
+import os
 from typing import Any
 
 import numpy as np

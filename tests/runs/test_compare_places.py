@@ -146,6 +146,18 @@ def test_studies_over_the_same_keys_are_compared_by_case(studies):
     assert alone.texts[0] == "-" and alone.change == ""
 
 
+@pytest.mark.parametrize("first, second", [
+    ({"speed": [5, 10]}, {"speed": [5.0, 10.0]}), ({"speed": "5:10:2"}, {"operation.u_m": ["10 m/s", "500 cm/s"]}),
+    ({"speed": [0.1 + 0.2]}, {"speed": [0.3]}), ({"thermal.on": [True, False]}, {"thermal.on": ["auto", False, True]})])
+def test_equal_values_of_two_studies_are_one_place(first, second, tmp_path, monkeypatch):
+    """However the key and its values were typed."""
+    monkeypatch.setattr(case, "run_case", lambda job, *_: formula(job))
+    one, other = (tehl.sweep(BASE, over, tmp_path / name, workers=1) for name, over in (("one", first), ("other", second)))
+    found = tehl.compare(one, other)
+    assert len(found.places) == max(len(one), len(other))
+    assert sum(None not in row.numbers for row in found.rows if row.name == "steady_h_c_m") == len(one)
+
+
 def test_studies_over_other_keys_and_results_of_two_kinds_are_refused(studies, flanks):
     with pytest.raises(tehl.SceneError, match="thin is over srr and .*heights over height; allowed: studies over the same"):
         tehl.compare(studies / "thin", studies / "heights")

@@ -11,6 +11,7 @@ import numpy as np
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values import units
+from tehl_taichi.values.checks import HUGE
 from tehl_taichi.values.coerce import plain, shown
 
 FORMS = "as in srr=-0.3:0.3:7, srr=-0.1,0,0.1, load=1kN:5kN:3 or speed=0.1:10:5:log"
@@ -254,6 +255,16 @@ def all_numbers(values):
     return all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values)
 
 
+def real(value):
+    """A whole number as the float that equals it; other values unchanged."""
+    return float(value) if all_numbers([value]) and abs(value) <= HUGE else value
+
+
 def word(value):
-    """A value as text."""
+    """A value as text, in the syntax of a scene file: true, [1e-05]."""
     return value if isinstance(value, str) else os.fspath(value) if isinstance(value, os.PathLike) else json.dumps(value)
+
+
+def short_word(value):
+    """A value as text, a number with six digits."""
+    return f"{value:g}" if isinstance(value, float) else word(value)

@@ -19,6 +19,7 @@ from tehl_taichi.values.quantity import kinds
 
 LOOKED_AT = 100  # cases among which equal ones are looked for, 10 ms each
 MOST = 100_000  # cases: more are a mistake in a range
+SPELLED = {"": "1", "-": "1", "deg C": "degC"}  # units in arrays that a scene spells otherwise
 ONE = "case"  # the dimension of a study whose keys change together
 
 
@@ -69,17 +70,18 @@ class Plan:
 
     @property
     def name(self):
-        """Name of the scene with six digits that identify the plan."""
-        return f"{self.scene.name}-sweep-{hashlib.sha256(self._text(note='').encode()).hexdigest()[:6]}"
+        """Name of the scene with six digits that identify the plan; 5 and 5.0 are one value."""
+        text = self._text(axis_syntax.real, note="")
+        return f"{self.scene.name}-sweep-{hashlib.sha256(text.encode()).hexdigest()[:6]}"
 
     @property
     def text(self):
         """JSON text of the plan."""
         return self._text()
 
-    def _text(self, **other):
-        """Text of the plan with other values of the scene."""
-        axes = [{"keys": axis.keys, "rows": axis.rows} for axis in self.axes]
+    def _text(self, written=lambda value: value, **other):
+        """Text of the plan with other values of the scene. written: function of a value of an axis."""
+        axes = [{"keys": axis.keys, "rows": [[written(value) for value in row] for row in axis.rows]} for axis in self.axes]
         return json.dumps({"scene": {**self.scene.to_dict(), **other}, "axes": axes, "drawn": self.drawn}, sort_keys=True)
 
     def matches(self, text):
@@ -258,14 +260,15 @@ def _choices(key, found):
 
 
 def unit(scene, key):
-    """Unit of a key, "1" without one."""
+    """Unit of a key as the arrays of stores have it, "1" without one."""
     section, _, name = aliases.full_name(key).partition(".")
     if (section, name) == ("contact", "load"):
         return scene.load_unit
     if section + "." + name in aliases.BY_SURFACE:
         return "m/s"
     try:
-        return (kinds(type(_part(scene, section, name)))[name.rpartition(".")[2]].unit or "1").replace("-", "1")
+        declared = kinds(type(_part(scene, section, name)))[name.rpartition(".")[2]].unit
+        return SPELLED.get(declared, declared)
     except (KeyError, AttributeError, TypeError, ValueError, IndexError):
         return "1"
 

@@ -10,6 +10,7 @@ import contextlib
 import csv
 import io
 import json
+import math
 import os
 import time
 from collections.abc import Iterator
@@ -259,7 +260,7 @@ class Study(LockedFolder):
         out = csv.DictWriter(text, ["case", *self.plan.keys, "status", *self.values], restval="", lineterminator="\n")
         out.writerow({key: cell(key) for key in out.fieldnames})
         for row in self.rows():
-            out.writerow({key: "" if value != value else cell(value) for key, value in row.items()})
+            out.writerow({key: _cell(value) for key, value in row.items()})
         return text.getvalue()
 
     def to_dict(self) -> dict:
@@ -288,6 +289,13 @@ class Study(LockedFolder):
 
         return study_figures.write_all(self, folder or default_folder(self.path), quantity,
                                        FigureStyle(format, dpi, width, force))
+
+
+def _cell(value):
+    """Value of a row for the CSV, as its coordinate has it; "" for nan."""
+    if all_numbers([value]):
+        return "" if math.isnan(value) else value
+    return cell(word(value))
 
 
 def _scene_text(plan):

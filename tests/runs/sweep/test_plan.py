@@ -160,6 +160,11 @@ def test_two_words_are_choices():
         assert plan(GEAR, {key: two}, samples=2, seed=1) == plan(GEAR, {key: list(two)}, samples=2, seed=1)
 
 
+def test_a_sweep_has_one_name_whether_its_numbers_have_a_point():
+    whole, pointed, other = (plan(GEAR, {"speed": values}) for values in ([5, 10], np.array([5.0, 10.0]), [5, 11]))
+    assert whole.name == pointed.name != other.name and whole == pointed and pointed.matches(whole.text)
+
+
 def test_a_masked_value_is_no_value():
     with pytest.raises(SceneError, match="operation.srr = None is not a number"):
         plan(GEAR, {"srr": np.ma.array([0.1, 0.2], mask=[False, True])}).refused()
@@ -171,7 +176,7 @@ def test_samples_may_share_a_value_of_one_key():
 
 def test_units_of_keys():
     keys = {"srr": "1", "height": "m", "speed": "m/s", "load": "N/m", "bodies.b.E": "Pa", "operation.u_a": "m/s",
-            "rheology.law": "1", "feature.0.x": "m", "hertz_pressure": "Pa"}
+            "rheology.law": "1", "feature.0.x": "m", "hertz_pressure": "Pa", "temperature": "degC", "grid.nx": "1"}
     assert {key: unit(GEAR, key) for key in keys} == keys
 
 
