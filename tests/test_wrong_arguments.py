@@ -53,6 +53,16 @@ def test_a_sentence(wrong, words, tmp_path):
     assert not [*tmp_path.iterdir()]
 
 
+@pytest.mark.parametrize("given, words", [
+    ({"threads": True}, "threads = True is not a whole number; allowed: 1"), ({"threads": "2"}, "threads = '2' is not a whole"),
+    ({"threads": 0}, "threads = 0 is out of range; allowed: 1 to"), ({"arch": "gpu"}, "arch = 'gpu' is not available; allowed"),
+    ({"arch": 3}, "arch = 3 is not available; allowed: cpu, cuda, vulkan")])
+def test_threads_and_kinds_of_machines_that_are_none(given, words, tmp_path):
+    with pytest.raises(tehl.RuntimeUnavailable, match=words):
+        tehl.run(LINE, tmp_path / "line.zarr", **given)
+    assert not [*tmp_path.iterdir()]
+
+
 @pytest.mark.parametrize("call", [
     tehl.open, tehl.resume, tehl.zoom, tehl.scene, tehl.export, tehl.report, tehl.animate, tehl.fatigue, tehl.crack, tehl.run,
     tehl.compare, tehl.flank, tehl.bearing, tehl.cam, tehl.simulate, lambda path: tehl.run(LINE, path),

@@ -91,7 +91,7 @@ def check(arch=None, threads=None):
     end_if_importing()
     arch = chosen(arch)
     if arch not in ARCHES:
-        raise RuntimeUnavailable(f"arch = {arch!r} is not available in this version: {', '.join(map(repr, ARCHES))} is")
+        raise RuntimeUnavailable(f"arch = {arch!r} is not available; allowed: {', '.join(ARCHES)}")
     if arch == "cuda":
         _driven()
     check_number(threads)
@@ -101,7 +101,7 @@ def check(arch=None, threads=None):
 
 def check_number(threads):
     """Refuse a number of threads that no machine has, also where nothing is left to compute. Raises RuntimeUnavailable."""
-    if threads is not None and not isinstance(threads, numbers.Integral):
+    if threads is not None and (isinstance(threads, bool) or not isinstance(threads, numbers.Integral)):
         raise RuntimeUnavailable(f"threads = {threads!r} is not a whole number; allowed: 1 to {MOST_THREADS}")
     if threads is not None and not 1 <= threads <= MOST_THREADS:
         raise RuntimeUnavailable(f"threads = {threads!r} is out of range; allowed: 1 to {MOST_THREADS}")
