@@ -19,7 +19,6 @@ from tehl_taichi.values.quantity import kinds
 
 LOOKED_AT = 100  # cases among which equal ones are looked for, 10 ms each
 MOST = 100_000  # cases: more are a mistake in a range
-SPELLED = {"": "1", "-": "1", "deg C": "degC"}  # units in arrays that a scene spells otherwise
 ONE = "case"  # the dimension of a study whose keys change together
 
 
@@ -260,15 +259,14 @@ def _choices(key, found):
 
 
 def unit(scene, key):
-    """Unit of a key as the arrays of stores have it, "1" without one."""
+    """Unit of a key, "1" without one."""
     section, _, name = aliases.full_name(key).partition(".")
     if (section, name) == ("contact", "load"):
         return scene.load_unit
     if section + "." + name in aliases.BY_SURFACE:
         return "m/s"
     try:
-        declared = kinds(type(_part(scene, section, name)))[name.rpartition(".")[2]].unit
-        return SPELLED.get(declared, declared)
+        return (kinds(type(_part(scene, section, name)))[name.rpartition(".")[2]].unit or "1").replace("-", "1")
     except (KeyError, AttributeError, TypeError, ValueError, IndexError):
         return "1"
 

@@ -39,6 +39,7 @@ from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import cell
 
 TABLE, CASES, PLAN = "table.csv", "cases", "study"  # PLAN: the attribute that makes a group a study
+SPELLED = {"deg C": "degC"}  # units of a scene, as the arrays of all stores have them
 SHARE = 0.05  # of the time, at most, goes into writing table and arrays
 EVERY = 1.0  # s between two writes, at least
 
@@ -228,7 +229,8 @@ class Study(LockedFolder):
         for key in self.plan.keys:
             dim, values = self.plan.coordinate(key)
             values = np.array(values) if all_numbers(values) else np.array([word(value) for value in values], dtype=object)
-            self._make(key, values, [dim], unit(self.plan.scene, key), key)
+            unit_ = unit(self.plan.scene, key)
+            self._make(key, values, [dim], SPELLED.get(unit_, unit_), key)
         if ONE not in self.plan.keys:
             numbers = np.arange(len(self), dtype="i4").reshape(self.plan.shape)
             self._make(ONE, numbers, self.plan.dims, "1", f"number of the case: its store is {CASES}/NUMBER.zarr")

@@ -176,7 +176,7 @@ def test_samples_may_share_a_value_of_one_key():
 
 def test_units_of_keys():
     keys = {"srr": "1", "height": "m", "speed": "m/s", "load": "N/m", "bodies.b.E": "Pa", "operation.u_a": "m/s",
-            "rheology.law": "1", "feature.0.x": "m", "hertz_pressure": "Pa", "temperature": "degC", "grid.nx": "1"}
+            "rheology.law": "1", "feature.0.x": "m", "hertz_pressure": "Pa", "grid.nx": "1"}
     assert {key: unit(GEAR, key) for key in keys} == keys
 
 

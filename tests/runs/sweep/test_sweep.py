@@ -116,17 +116,18 @@ def test_keys_that_change_together_lie_along_one_dimension(tmp_path):
 
 def test_the_table_has_the_values_of_the_coordinates(tmp_path):
     """Switches, words and lists, too: they can be typed again."""
-    over = {"thermal.on": [True, False], "fatigue.depths": ["auto", [1e-5, 2e-5]], "srr": [0.0, 0.1]}
+    over = {"thermal.on": [True, False], "fatigue.depths": ["auto", [1e-5, 2e-5]], "temperature": [60.0, 353.15 - 273.15]}
     study = sweeping.run(plan(GEAR, over), tmp_path / "s.zarr", workers=1, work=formula)
     data = study.to_xarray()
     with open(study.table) as file:
         rows = list(csv.DictReader(file))
     for key in over:
         assert list(dict.fromkeys(row[key] for row in rows)) == [str(value) for value in data[key].values]
+    assert data["temperature"].units == "degC" and data["temperature"].values.tolist() == [60.0, 80.0]
     assert rows[2]["fatigue.depths"] == "[1e-05, 2e-05]" and rows[7]["thermal.on"] == "false"
     from tehl_cli.sweep_display import changes_words
 
-    assert changes_words(study.results()[5]) == "thermal.on = false, fatigue.depths = auto, srr = 0.1"
+    assert changes_words(study.results()[5]) == "thermal.on = false, fatigue.depths = auto, temperature = 80"
 
 
 def test_going_on_changes_nothing_that_is_done(tmp_path):
