@@ -79,10 +79,7 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     """Resume a run: see :func:`tehl_taichi.resume`."""
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
-    from tehl_taichi.values.checks import integer
 
-    if steps is not None:
-        integer("steps", steps, 1, 10**7)
     runtime.check_number(threads)
     before, progress = open(path), progress_of(progress)
     path = before.path

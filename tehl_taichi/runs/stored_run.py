@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from tehl_taichi.errors import StoreError, UnknownName
 from tehl_taichi.runs.summary import summary_numbers
 from tehl_taichi.scene import Scene
-from tehl_taichi.values.checks import callback
+from tehl_taichi.values.checks import callback, integer
 from tehl_taichi.values.coded_text import for_reader
 from tehl_taichi.values.coded_warning import summary_for_reader
 from tehl_taichi.values.digits import number_of
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from tehl_taichi.crack.analysis import CrackResult
     from tehl_taichi.fatigue.search_result import SearchResult
     from tehl_taichi.store.store import Store
+
+
+MOST_STEPS = 10**7  # further ones of a run
 
 
 class Run:
@@ -291,9 +294,16 @@ class Run:
         ----------
         steps : int, optional
             Number of further steps; default: to the end that the run was given, for a finished run to the end of its passage.
+
+        Raises
+        ------
+        SceneError
+            `steps` is no whole number of at least 1.
         """
         from tehl_taichi.scene.timeline import remaining_scene
 
+        if steps is not None:
+            integer("steps", steps, 1, MOST_STEPS)
         if not self.finished and not steps:
             return self.scene
         found = remaining_scene(self.scene, self.store.last_step, steps)

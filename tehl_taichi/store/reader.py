@@ -11,7 +11,7 @@ import numpy as np
 
 from tehl_taichi.disk.drafts import put_back, unfinished_error
 from tehl_taichi.disk.locks import holder
-from tehl_taichi.errors import StoreError
+from tehl_taichi.errors import StoreError, UnknownName
 from tehl_taichi.march.step_output import fields_of, names, scalars_of
 from tehl_taichi.scene.timeline import cut_at
 from tehl_taichi.store import array_file, chunks, integrity, written_chunks
@@ -19,6 +19,7 @@ from tehl_taichi.store import stand_in as stand_in_scene
 from tehl_taichi.store.layout import OWN
 from tehl_taichi.values import checks
 from tehl_taichi.values.coded_warning import warnings_of_lists
+from tehl_taichi.values.coerce import shown
 
 
 class Reader:
@@ -119,7 +120,8 @@ class Reader:
         return self.series["time"][: self.steps]
 
     def scalar(self, name: str) -> np.ndarray:
-        """Values of a scalar series, one per stored entry (with output.every: see `cell_methods`)."""
+        """Values of a scalar series, one per stored entry (with output.every: see `cell_methods`). Raises UnknownName."""
+        self._check_name(name, self.series)
         return self.series[name][: self.steps]
 
     def feature_x(self, n: int) -> float:
@@ -136,11 +138,18 @@ class Reader:
         return pace * self.scalar("feature_x")
 
     def fields(self, n: int, names: Iterable[str] | None = None) -> dict[str, np.ndarray]:
-        """{name: (nx+1, ny+1) array} of entry n; names: default all stored fields. Raises SceneError if the store has no such
-        entry, StoreError for a damaged file.
+        """{name: (nx+1, ny+1) array} of entry n; names: a name or several, default all stored fields. Raises SceneError if the
+        store has no such entry, UnknownName if it has no such field, StoreError for a damaged file.
         """
         self._check_entry(n)
-        return {name: self._values(name, n) for name in (self.stored if names is None else names)}
+        wanted = self.stored if names is None else [names] if isinstance(names, str) else list(names)
+        for name in wanted:
+            self._check_name(name, self.stored)
+        return {name: self._values(name, n) for name in wanted}
+
+    def _check_name(self, name, known):
+        if not (isinstance(name, str) and name in known):
+            raise UnknownName(f"{self.path} has no array {shown(name)}{checks.nearest(name, known)}; known: {', '.join(known)}")
 
     def _check_entry(self, n):
         checks.integer("entry", n, 0, self.steps - 1)

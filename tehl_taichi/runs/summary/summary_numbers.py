@@ -38,7 +38,8 @@ def find(summary, name):
     known = all_numbers(summary)
     fitting = _fitting(known, name)
     if not fitting:
-        meant = [min(_names(full), key=len) for full in sorted(known, key=_order) if name in _keys(full)]
+        meant = [min(_names(full), key=len) for full in sorted(known, key=_order)
+                 if isinstance(name, str) and name in _keys(full)]
         hint = f" (did you mean {meant[0]!r}?)" if meant else nearest(name, _short(known))
         raise UnknownName(f"{shown(name)} is no number of this run{hint}; {known_names(known, 'list(run)')}")
     return known[min(fitting, key=_order)]
@@ -51,7 +52,7 @@ def contains(summary, name):
 
 def _fitting(known, name):
     """Full names of the numbers with this name."""
-    return [full for full in known if name in _names(full)]
+    return [full for full in known if name in _names(full)] if isinstance(name, str) else []
 
 
 def _names(full):

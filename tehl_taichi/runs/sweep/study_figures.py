@@ -10,6 +10,7 @@ from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
 from tehl_taichi.runs.sweep.study_labels import column_name, key_name, of_column, of_key
 from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
 from tehl_taichi.values.checks import known_names, nearest
+from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.digits import part_of
 from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
@@ -58,9 +59,9 @@ def usual(study):
 def _known(study, quantity):
     """The name of a column. Raises StoreError for another name."""
     if not study.values:
-        raise StoreError(f"{study.path} has no column {quantity!r}: it has no results yet")
-    if quantity not in study.values:
-        raise StoreError(f"{study.path} has no column {quantity!r}{nearest(quantity, study.values)}; "
+        raise StoreError(f"{study.path} has no column {shown(quantity)}: it has no results yet")
+    if not (isinstance(quantity, str) and quantity in study.values):
+        raise StoreError(f"{study.path} has no column {shown(quantity)}{nearest(quantity, study.values)}; "
                          f"{known_names(study.values, f'first line of {study.table}')}")
     return quantity
 

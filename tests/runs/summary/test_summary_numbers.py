@@ -38,6 +38,13 @@ def test_numbers_of_the_pressure_or_the_contact_alone_are_found_by_their_part():
             summary_numbers.find(summary, name)
 
 
+@pytest.mark.parametrize("name", [["h_c"], {"h_c": 1}, slice(0, 2), 3, None])
+def test_a_name_that_is_no_text(name):
+    assert not summary_numbers.contains(STEADY, name)
+    with pytest.raises(UnknownName, match="is no number of this run"):
+        summary_numbers.find(STEADY, name)
+
+
 def test_areas_and_volumes_have_their_units():
     summary = {"fatigue": {"stressed": {"volume_m3": 2e-14, "area_m2": 3e-9, "track_equal_m2": 1e-6, "exponent": 20.0}}}
     found = {name.rpartition(".")[2]: one.unit for name, one in summary_numbers.all_numbers(summary).items()}
