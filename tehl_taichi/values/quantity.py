@@ -19,8 +19,11 @@ AUTO = "auto"
 
 
 class Kind:
-    """Base of the kinds of values. about: meaning; unit: '' without one; allowed: text of the range."""
+    """Base of the kinds of values. word: their type in Python; about: meaning; unit: '' without one; allowed: text of the
+    range.
+    """
 
+    word = "str"
     about: str
     unit: str = ""
 
@@ -47,6 +50,7 @@ class Number(Kind):
     another unit; auto: the default is "auto".
     """
 
+    word = "float"
     about: str
     unit: str = "-"
     low: float = -math.inf
@@ -99,6 +103,8 @@ class Number(Kind):
 class Numbers(Number):
     """A list of such numbers; auto: the default is "auto"."""
 
+    word = "sequence of float"
+
     def taken(self, where, value):
         if not isinstance(value, (tuple, list)):
             return value
@@ -118,6 +124,7 @@ class Numbers(Number):
 class Count(Kind):
     """A whole number from low to high, a multiple of `multiple`."""
 
+    word = "int"
     about: str
     low: int
     high: int
@@ -137,6 +144,7 @@ class Count(Kind):
 class CountOf(Kind):
     """One of some whole numbers."""
 
+    word = "int"
     about: str
     counts: tuple
 
@@ -168,6 +176,7 @@ class Choice(Kind):
 class Switch(Kind):
     """true or false; auto: the default is "auto"."""
 
+    word = "bool"
     about: str
     auto: bool = False
 
@@ -198,6 +207,7 @@ class Pairs(Kind):
     twice.
     """
 
+    word = "sequence of pairs"
     about: str
     fewest: int
     most: int
@@ -309,9 +319,8 @@ def known_keys(cls):
 
 def _default(cls, key):
     kind = kinds(cls)[key]
-    word = {Numbers: "sequence of float", Number: "float", Count: "int", Switch: "bool", Pairs: "sequence of pairs"}
     auto = f" or '{AUTO}'" if getattr(kind, "auto", False) else ""
-    return f"{word.get(type(kind), 'str')}{auto}, default {shown(getattr(cls, key, None))}"
+    return f"{kind.word}{auto}, default {shown(getattr(cls, key, None))}"
 
 
 def _meaning(kind):

@@ -131,3 +131,11 @@ def test_long_lists_of_names_are_not_printed(change, said):
 def test_short_lists_of_names_are_printed():
     with pytest.raises(SceneError, match="^unknown key grid.frction; known: nx, ny, x_min, x_max, y_max, inlet$"):
         scene("gear").replace(**{"grid.frction": 1})
+
+
+@pytest.mark.parametrize("section, key", KEYS)
+def test_the_documented_type_is_that_of_the_default(section, key):
+    kind, usual = kinds(PARTS[section])[key], getattr(PARTS[section], key, None)
+    if usual not in (None, "auto"):
+        assert kind.word == type(usual).__name__ or kind.word.startswith("sequence") and isinstance(usual, tuple)
+    assert f"\n    {key} : {kind.word}" in (PARTS[section].__doc__ or "")
