@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.fatigue import depth_profile, findley, von_mises
+from tehl_taichi.fatigue import depth_profile, exact_depths, findley, von_mises
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.stress.steady_sweep import SteadySweep
 
@@ -72,7 +72,8 @@ def _searched(sweep, local, rows):
 def _profiles(sweep, rows):
     """The :class:`tehl_taichi.fatigue.depth_profile.DepthProfile` under each of these rows."""
     under = depth_profile.ladder(sweep)
-    return [depth_profile.of_row(sweep, under, found, row) for row, found in zip(rows, _histories(sweep, under, rows))]
+    found = [depth_profile.of_row(sweep, under, one, row) for row, one in zip(rows, _histories(sweep, under, rows))]
+    return exact_depths.computed(sweep, rows, found, endless=sweep.line)
 
 
 def _histories(sweep, depths, rows):

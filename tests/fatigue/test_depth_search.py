@@ -4,17 +4,28 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from rolling import Rolling
+from rolling import BothSides, Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import RuntimeUnavailable
-from tehl_taichi.fatigue import assessment, candidate_rows, depth_profile, depth_search, judged_layers
+from tehl_taichi.fatigue import (
+    assessment,
+    candidate_rows,
+    contact_alone,
+    depth_profile,
+    depth_search,
+    exact_depths,
+    findley,
+    judged_layers,
+    von_mises,
+)
 from tehl_taichi.fatigue.sought import Box
 from tehl_taichi.fatigue.stress import half_space
 from tehl_taichi.fatigue.stress import workers as stress_workers
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface, histories_of
 from tehl_taichi.fatigue.stress.row_stress import RowStress
+from tehl_taichi.fatigue.stress.steady_sweep import SteadySweep
 from tehl_taichi.fatigue.stress.thermal_stress import ThermalStress
 from tehl_taichi.runs.summary import result_warnings, summary_rows
 from tehl_taichi.scene import SceneError
@@ -420,3 +431,71 @@ def test_threads_of_the_fatigue_command_are_checked(threads):
     with pytest.raises(RuntimeUnavailable, match=f"threads = {threads} is out of range") as refused:
         command("none.zarr", threads=threads)
     assert refused.value.exit_code == 2
+
+
+def below_numbers(summary):
+    """Fi and von Mises stress below the surface, of the passage and of the contact alone, and the depths of the passage."""
+    alone = summary["contact_alone"]
+    return [summary["below"]["Fi_max"], summary["von_mises"]["max_Pa"], alone["Fi_max"], alone["von_mises"]["max_Pa"],
+            summary["below"]["depth_m"], summary["von_mises"]["depth_m"]]
+
+
+@pytest.mark.parametrize("heat", [False, True])
+def test_both_halves_of_a_passage_have_the_numbers_of_one(taichi_cpu, heat):
+    """On the whole domain all points of the worst depth are searched, on the half domain its row alone."""
+    scene = tehl.scene("gear").replace(**{"thermal.on": heat, "fatigue.surfaces": "a"})
+    one, both = (below_numbers(assessment.run(scene, reader(scene, 12, 9)).summary) for reader in (Rolling, BothSides))
+    np.testing.assert_allclose(both, one, rtol=1e-6)
+
+
+def test_stresses_below_are_those_of_their_depth(taichi_cpu):
+    """Of the worst point as a search of all points at that depth has it; of both von Mises stresses by the histories there."""
+    scene, found = result()
+    deep, steel = found.summary["below"], found.summary["von_mises"]
+    _, there = result(**{"fatigue.depths": [deep["depth_m"]]})
+    assert deep["findley_stress_max_Pa"] == pytest.approx(there.summary["by_depth"][1]["findley_stress_max_Pa"], rel=1e-6)
+    passage = StressHistories(scene, reader := Rolling(scene, 8, 5), reader.centres)
+    histories = histories_of(passage, [steel["depth_m"]], [(0, False)])[0][0]
+    assert steel["max_Pa"] == pytest.approx(von_mises.largest(histories).max(), rel=1e-6)
+
+
+def test_the_contact_alone_is_that_of_its_depth(taichi_cpu):
+    """Below an endless line with shear: plane strain by the histories of the point at these depths."""
+    scene = tehl.scene("gear").replace(**{"thermal.on": False})
+    alone = contact_alone.search(scene, reader := Rolling(scene, 8, 5), scene.reference).summary
+    sweep = SteadySweep(scene, reader, scene.reference)
+    steel = alone["von_mises"]
+    one, other = (histories_of(sweep, [part["depth_m"]], [(sweep.middle, True)])[0][0] for part in (alone, steel))
+    assert alone["findley_stress_max_Pa"] == pytest.approx(findley.search(one, scene.fatigue.kappa)[0][0], rel=1e-6)
+    assert steel["max_Pa"] == pytest.approx(von_mises.largest(other)[0], rel=1e-6)
+
+
+@pytest.mark.parametrize("until", [None, 0.3])
+def test_numbers_below_do_not_depend_on_the_rungs(taichi_cpu, monkeypatch, until):
+    """With other rungs the depth moves a little, and the stress with the square of that."""
+    scene, found = tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.surfaces": "a"}), []
+    for ratio in (1.5, 1.3):
+        monkeypatch.setattr(depth_profile, "RATIO", ratio)
+        found.append(assessment.run(scene, Rolling(scene, 12, 9), until=until).summary)
+    for part in (below_numbers, *([lambda s: [s["resolved"]["below"]["Fi_max"]]] if until else [])):
+        one, other = (part(summary) for summary in found)
+        np.testing.assert_allclose(other[:4], one[:4], rtol=5e-5)
+
+
+def test_only_rows_that_may_be_the_worst_are_computed_again(taichi_cpu, monkeypatch):
+    """Of each set of moments; the others keep their interpolated worst points."""
+    scene, asked = tehl.scene("gear").replace(**{"thermal.on": False}), []
+    passage = StressHistories(scene, reader := Rolling(scene, rows=9), reader.centres)
+    windows = [slice(None), np.append(np.flatnonzero(passage.centres < -0.2 * passage.a), passage.centres.size)]
+    rows = [0, 1, 8]
+    found = depth_profile.profiles(passage, rows, windows)
+    plain = exact_depths.histories_of
+    monkeypatch.setattr(exact_depths, "histories_of", lambda *how: asked.append(how[2][0][0]) or plain(*how))
+    computed = exact_depths.computed(passage, rows, found, windows)
+    tops = [max(one.worst.f for one in found[first::2]) for first in (0, 1)]
+    near = [one.worst.f >= 0.98 * tops[n % 2] for n, one in enumerate(found)]
+    assert [one.worst is other.worst for one, other in zip(computed, found)] == [not one for one in near]
+    assert 0 in asked and 8 not in asked and not all(near[:2] + near[4:])
+    assert all(one.worst.f == pytest.approx(other.worst.f, rel=3e-3) and one.worst.y == other.worst.y
+               and one.worst.depth == other.worst.depth and len(one.worst.stress) == len(other.worst.stress)
+               for one, other in zip(computed, found))
