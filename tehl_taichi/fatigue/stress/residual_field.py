@@ -30,7 +30,7 @@ class ResidualField:
         return found
 
     def _in_depth(self, depths):
-        """Weights (depths, layers): linear between the middles of layers, constant up to the surface, zero at ENDS."""
+        """Weights (depths, layers): linear between the middles of layers and on to the surface, zero at ENDS."""
         deep = np.asarray(depths, float)
         out = _weights(np.append(self.depths, ENDS * self.depths[-1]), deep)[:, :-1]
         above = deep < self.depths[0]
