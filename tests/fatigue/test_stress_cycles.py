@@ -95,3 +95,19 @@ def test_the_direction_of_the_shear_does_not_matter():
     turned = np.zeros((602, 6))
     turned[:-1, 4], turned[:-1, 5] = 110e6 * np.sin(x) * np.cos(0.7), 110e6 * np.sin(x) * np.sin(0.7)
     assert stress_cycles.above(turned, np.array([0.0, 0.0, 1.0]), FATIGUE) == 3
+
+
+@pytest.mark.parametrize("share, count", [(0.04, 1), (0.06, 21)])
+def test_cycles_of_less_than_a_twentieth_of_the_limit_are_noise(share, count):
+    """Under a tension by which every cycle exceeds the limit: twenty small waves inside one of 60 MPa."""
+    small = share * 100e6 * np.tile([1.0, -1.0], 20)
+    shear = np.concatenate([[60e6, -60e6], small])
+    assert stress_cycles.above(history(shear, 400e6 + 0 * shear), np.array([0.0, 0.0, 1.0]), FATIGUE) == count
+
+
+@pytest.mark.parametrize("moment, count", [(2, 2), (4, 2), (5, 1)])
+def test_the_moments_at_which_a_cycle_begins_and_closes_are_its_own(moment, count):
+    """From 90 to -90 MPa and back, with tension at one moment; the cycle of 110 MPa around it always counts."""
+    shear, tension = np.array([110.0, -110.0, 90.0, -90.0, 90.0, 100.0, 110.0]) * 1e6, np.zeros(7)
+    tension[moment] = 50e6
+    assert stress_cycles.above(history(shear, tension), np.array([0.0, 0.0, 1.0]), FATIGUE) == count
