@@ -33,7 +33,7 @@ def computed(passage, rows, profiles, moment_sets=(slice(None),), endless=False)
 
 
 def _near(numbers, values):
-    """Those of the numbers whose values are close to the largest."""
+    """Numbers (of `numbers`) whose values are close to the largest."""
     top = max(values[n] for n in numbers)
     return {n for n in numbers if values[n] >= top - (1 - NEAR) * abs(top)}
 
