@@ -8,7 +8,7 @@ import numpy as np
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import StoreError
-from tehl_taichi.fatigue import contact_alone, depth_profile, findley
+from tehl_taichi.fatigue import contact_alone, depth_profile, exact_depths, findley
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import at_the_surface
 from tehl_taichi.march.accuracy import coarse_runs, readings
@@ -131,7 +131,8 @@ def _moments(passage, low, high):
 def deep_stresses(passage):
     """DEEP, ALONE and their depths."""
     row = int(np.argmin(np.abs(passage.reader.y - passage.scene.features[0].y)))
-    deep = depth_profile.profiles(passage, [row], [_moments(passage, *WINDOWS[window]) for window in DEEP])
+    windows = [_moments(passage, *WINDOWS[window]) for window in DEEP]
+    deep = exact_depths.computed(passage, [row], depth_profile.profiles(passage, [row], windows), windows)
     alone = contact_alone.search(passage.scene, passage.reader, passage.surface).summary
     found = [(profile.worst.f, profile.worst.depth) for profile in deep]
     return {key: value for stress, pair in zip(DEPTHS, [*found, (alone["findley_stress_max_Pa"], alone["depth_m"])])

@@ -28,7 +28,7 @@ def computed(passage, rows, profiles, moment_sets=(slice(None),), endless=False)
         found = _histories(passage, row, sorted(depths), endless)
         for n, moments in zip(own, moment_sets):
             out[n] = replace(out[n], **(_worst(passage, found, out[n].worst, moments) if n in worst else {}),
-                             **(_mises(passage, found, out[n].mises) if n in peaks else {}))
+                             **(_mises(passage, found, out[n].mises, moments) if n in peaks else {}))
     return out
 
 
@@ -61,6 +61,6 @@ def _worst(passage, found, point, moments):
     return {"worst": worse(None, _places(passage, point), history, f, normals, local)}
 
 
-def _mises(passage, found, peak):
+def _mises(passage, found, peak, moments):
     """{"mises": VonMisesPeak} of the computed histories `found` at the depth of `peak`."""
-    return {"mises": von_mises.peak(found[peak.depth], _places(passage, peak))}
+    return {"mises": von_mises.peak(found[peak.depth][:, moments], _places(passage, peak))}

@@ -496,6 +496,8 @@ def test_only_rows_that_may_be_the_worst_are_computed_again(taichi_cpu, monkeypa
     near = [one.worst.f >= 0.98 * tops[n % 2] for n, one in enumerate(found)]
     assert [one.worst is other.worst for one, other in zip(computed, found)] == [not one for one in near]
     assert 0 in asked and 8 not in asked and not all(near[:2] + near[4:])
+    early, = exact_depths.computed(passage, [0], depth_profile.profiles(passage, [0], windows[1:]), windows[1:])
+    assert early.worst.f == pytest.approx(computed[1].worst.f, rel=1e-6) and early.mises.value < 0.99 * computed[0].mises.value
     assert all(one.worst.f == pytest.approx(other.worst.f, rel=3e-3) and one.worst.y == other.worst.y
                and one.worst.depth == other.worst.depth and len(one.worst.stress) == len(other.worst.stress)
                for one, other in zip(computed, found))
