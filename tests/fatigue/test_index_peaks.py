@@ -24,6 +24,15 @@ def test_the_largest_come_first_and_apart():
     assert (round(X[worst_places(X, Y, index, 0.3, 8)[2][0]], 2)) == 1.35  # no shoulder of the larger one
 
 
+@pytest.mark.parametrize("apart, count", [(0.5, 4), (0.75, 2), (1.6, 1)])
+def test_distances_along_x_and_y_count_alike(apart, count):
+    """Bumps 0.7 apart in a square; a surface with exchanged axes has the exchanged places."""
+    index = bumps((-0.35, -0.35, 1.0), (-0.35, 0.35, 0.9), (0.35, -0.35, 0.8), (0.35, 0.35, 0.7))
+    found = worst_places(X, Y, index, apart, 8)
+    assert len(found) == count and found[0] == (33, 13)
+    assert worst_places(Y, X, index.T, apart, 8) == [(j, i) for i, j in found]
+
+
 def test_a_slope_is_no_place_but_an_edge_is():
     assert worst_places(X, Y, X[:, None] + 0.1 * Y, 0.1, 8) == [(80, 40)]
 
