@@ -8,7 +8,7 @@ import numpy as np
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.surface.roughness import Roughness
 
-MOST = 1024  # points along an axis, of surfaces that are sampled
+MOST = 1024  # points along y, and its square in all, of surfaces that are sampled
 
 
 @dataclass(frozen=True)
@@ -69,15 +69,16 @@ def _of(features, edge):
 
 def _sampled(features, edge):
     """(sum of the heights (points along y, along x) where no feature is faded out, steps); None if there is no such place."""
-    (x, step_x), (y, step_y) = (_places(features, axis, far) for axis, far in ((0, math.inf), (1, edge)))
+    y, step_y = _places(features, 1, edge, MOST)
+    x, step_x = _places(features, 0, math.inf, MOST * MOST // max(y.size, 1))
     if min(x.size, y.size) < 1 or max(x.size, y.size) < 4:
         return None
     return sum(f.height_at(x - f.x, y[:, None] - f.y) for f in features) + 0 * (x + y[:, None]), (step_x, step_y)
 
 
-def _places(features, axis, edge):
-    """(points along an axis within the patches of all features, at most `edge` (m) from 0; their step); one point if nothing
-    varies along it.
+def _places(features, axis, edge, most):
+    """(at most `most` points along an axis within the patches of all features, at most `edge` (m) from 0; their step); one
+    point if nothing varies along it.
     """
     name = "xy"[axis]
     inside = [(getattr(f, name), f.kind.patch(f)[axis] / 2 - f.taper) for f in features]
@@ -88,5 +89,5 @@ def _places(features, axis, edge):
     low, high = (max(low, -edge), min(high, edge)) if math.isinf(high - low) else (low, high)
     if high < low:
         return np.zeros(0), 1.0
-    count = min(max(int((high - low) / finest), 0), MOST - 1) + 1
+    count = min(max(int((high - low) / finest), 0), most - 1) + 1
     return np.linspace(low, high, count), (high - low) / max(count - 1, 1)

@@ -97,6 +97,16 @@ def test_ground_patches_have_their_Ra_on_average(lay):
     assert np.mean(found, axis=0) == pytest.approx(0.3 * UM, rel=0.08)
 
 
+@pytest.mark.parametrize("keys", [GROUND, {"shape": "rough", "height": 0.2 * UM, "width": 40 * UM, "extent_x": 500 * UM,
+                                                "extent_y": 600 * UM}])
+def test_the_top_of_random_heights_is_a_height_that_they_reach(keys):
+    """Not their rms or Ra: of ten patches the highest points are 0.6 to 1.3 times as high, on average."""
+    x, y = np.linspace(-250, 250, 101)[:, None] * UM, np.linspace(-300, 300, 101) * UM
+    features = [Feature(**{**keys, "seed": seed}) for seed in range(10)]
+    highest = np.mean([f.height_at(x, y).max() for f in features])
+    assert 0.6 < highest / features[0].top < 1.3
+
+
 def test_ground_without_a_length_is_as_long_as_wide():
     """Its heights are those of an equal length, without a kink in the middle."""
     x, y = np.linspace(-250, 250, 101)[:, None] * UM, np.linspace(-40, 40, 161) * UM

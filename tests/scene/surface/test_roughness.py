@@ -123,6 +123,15 @@ def test_ground_flanks():
     assert found["a"]["length_y_m"] > 2 * found["a"]["length_x_m"]
 
 
+@pytest.mark.parametrize("extent", [2e-3, 25e-3])
+def test_the_slope_of_marks_does_not_depend_on_their_length(extent):
+    """A short wave is sampled as finely on a long surface."""
+    f = Feature(shape="ground", height=0.3e-6, width=40e-6, length=math.inf, extent_x=extent, taper=1e-4)
+    x = np.linspace(-extent / 2 + 1e-4, extent / 2 - 1e-4, 400001)
+    slope = np.sqrt(np.mean(np.gradient(f.height_at(x, 0.0), x) ** 2))
+    assert surface_roughness.to_dict(rough_gear(f, **{"grid.nx": 1024}))["a"]["Rq_slope"] == pytest.approx(slope, rel=0.01)
+
+
 def test_two_rough_surfaces():
     """Their sum, wherever they are, has the root of the squares of both."""
     z = [wave(0.3e-6, 50e-6) + wave(0.1e-6, 25e-6, 0.6), wave(0.2e-6, 1e-3 / 17)]

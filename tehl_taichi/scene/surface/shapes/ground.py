@@ -17,6 +17,9 @@ class Ground(RandomWaves):
     def lengths(self, f):
         return tuple(map(_lengths, (f.width, f.length or f.width)))
 
+    def rms(self, f):
+        return RMS * f.height
+
     def waves(self, f, x, y):
         """Product waves of equal power per octave along x and y with random phases; Ra = height, also along y = 0, where a sum
         of even cosines would have twice the mean square.
@@ -25,7 +28,7 @@ class Ground(RandomWaves):
         (k_x, k_y), (along_x, along_y) = (2 * np.pi / lengths for lengths in self.lengths(f)), self.kept(f)
         phase_x, phase_y = rng.uniform(0, 2 * np.pi, (2, k_x.size, k_y.size)) * [[[1.0]], [[float(k_y[0] > 0)]]]
         size = rng.standard_normal((k_x.size, k_y.size))
-        size *= RMS * f.height / np.sqrt((size**2).sum() * (0.25 if k_y[0] > 0 else 0.5))
+        size *= self.rms(f) / np.sqrt((size**2).sum() * (0.25 if k_y[0] > 0 else 0.5))
         even = np.hypot(y, BEND * (f.length or f.width)) if k_y[0] > 0 else y
         return sum(size[p, q] * np.cos(k_x[p] * x + phase_x[p, q]) * np.cos(k_y[q] * even + phase_y[p, q])
                    for p in along_x for q in along_y)
