@@ -145,7 +145,7 @@ def _across(f, scene):
     """Warning about a form that differs from that of the bodies, which are curved only along x in a line contact."""
     if scene.contact.kind == "line" and f.form.dominant and f.form.axis == "y":
         yield (f"{_name(f)}: its form is {f.form.says}, across the rolling direction, but the bodies of a line contact are "
-               f"curved along x only. If the scan lies across, set feature.transpose = {str(not f.transpose).lower()}")
+               f"curved along x only. If the scan lies across, set {f.kind.other_lay(f)}")
 
 
 def _size(f):
@@ -181,7 +181,7 @@ def _name(f):
 
 def _grid(f, scene):
     steps, heights = points_in_a_cell(f, scene), middle(f.used)
-    lost, own = error_on_grid(heights, *steps), error_on_grid(heights, 2, 2)
+    lost, own = error_on_grid(heights, *steps), error_on_grid(heights, *(2 if step < 1 else 1 for step in steps))
     if lost > SHARE:
         remedy, cutoff = _finer(heights, steps, scene), _cutoff(f, scene)
         yield with_data(f"{_name(f)}: on this grid the {f.shape} is off by {lost:.0%} of its rms "
@@ -218,11 +218,16 @@ def _finer(heights, steps, scene):
 
 
 def _rim(f):
-    used = f.used
-    step = max(float(np.abs(edge).max()) for edge in (used[0], used[-1], used[:, 0], used[:, -1]))
+    step = max(float(np.abs(edge).max()) for edge in _edges(f))
     formed = f.level != "form" and f.form.dominant  # the step belongs to the form, which _form reports
     if f.taper == 0 and step > RIM * f.measures.rms and not formed:
         yield f"{_name(f)} ends in a step of up to {_um(step)} um at its rim; set feature.taper (m) to fade it out"
+
+
+def _edges(f):
+    """Heights along the rim of the patch, where it ends: an endless profile has a rim along x only."""
+    sides = zip(f.patch, (f.used.T, f.used))
+    return [rows[end] for size, rows in sides if np.isfinite(size) for end in (0, -1)]
 
 
 def _faded(f):

@@ -48,6 +48,10 @@ class Map(Patch):
         """Whether the rows of the file lie along y."""
         return f.transpose
 
+    def other_lay(self, f):
+        """Text: the key that turns its x to y."""
+        return f"feature.transpose = {str(not f.transpose).lower()}"
+
     def place_words(self, row, column):
         """Row and column of a point in its file, as text."""
         return f"row {row}, column {column}"

@@ -51,6 +51,9 @@ class Profile(Map):
     def symmetric(self, f):
         return Shape.symmetric(self, f) if not self.across(f) else False
 
+    def other_lay(self, f):
+        return f"feature.lay = {next(lay for lay in LAYS if lay != f.lay)!r}"
+
     def idle(self, f):
         name = "x" if self.across(f) else "y"
         return dict.fromkeys((f"mirror_{name}", f"offset_{name}"), f"a {f.lay} profile does not vary along {name}")

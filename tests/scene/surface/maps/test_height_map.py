@@ -246,6 +246,16 @@ def test_points_too_few_for_their_own_roughness_are_doubted(tmp_path):
     assert doubts(with_map(wave(tmp_path, length=60.0), **sparse)) == []
 
 
+@pytest.mark.parametrize("turned, steps, doubted", [(False, (1e-6, 20e-6), False), (True, (20e-6, 1e-6), False),
+                                                    (False, (20e-6, 1e-6), True), (True, (1e-6, 20e-6), True)])
+def test_only_points_farther_apart_than_cells_are_doubted(turned, steps, doubted):
+    """Rows that hardly differ, of rough rows; cells are 11 um."""
+    heights = 1e-8 * np.random.default_rng(2).normal(size=240) * np.linspace(0.8, 1.2, 30)[:, None]
+    f = Feature.from_heights(heights.T if turned else heights, *steps, taper=5e-6)
+    said = doubts(dataclasses.replace(scene("gear"), features=(f,)).replace(**{"grid.nx": 128, "grid.ny": 32}))
+    assert any("do not resolve" in one for one in said) == doubted
+
+
 def test_flat_steep_and_cut_off_maps_are_doubted(tmp_path):
     smooth = {"grid.nx": 256, "grid.ny": 64}
     rms = feature(wave(tmp_path)).measures.rms * 1e6

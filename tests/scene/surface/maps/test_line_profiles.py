@@ -140,6 +140,23 @@ def test_the_preview_names_offsets_and_distances_along_its_own_axis(column, lay,
     assert "150 points 2 um apart" in first and f"used around {axis} = 40 um, fading" in first
 
 
+@pytest.mark.parametrize("keys, stepped", [({}, False), ({"extent_y": 1e-4}, True), ({"lay": "longitudinal"}, True),
+                                           ({"extent_x": 2e-4}, True)])
+def test_an_endless_profile_has_a_rim_at_its_ends_alone(keys, stepped):
+    """Two hills between zeros; where they are cut, along x or y, there is a step."""
+    hills = Feature.from_heights(3e-7 * np.sin(np.linspace(0, 2 * np.pi, 120)) ** 2, 3e-6, level="none", **keys)
+    assert any("ends in a step" in said for said in gear_with(hills).warnings()) == stepped
+
+
+@pytest.mark.parametrize("lay", ["transverse", "longitudinal"])
+def test_a_profile_across_the_curvature_is_asked_about_its_lay(lay):
+    x = 3e-6 * (np.arange(120) - 59.5)
+    f = Feature.from_heights(-x * x / 2 / 0.02, 3e-6, level="form", lay=lay, taper=3e-5)
+    found = [said for said in gear_with(f).warnings() if "across the rolling direction" in said]
+    assert len(found) == (lay == "longitudinal") and all(said.endswith("feature.lay = 'transverse'") for said in found)
+    dataclasses.replace(f, lay="transverse")  # is taken
+
+
 @pytest.mark.parametrize("changes, words", [
     ({"shape": "map"}, "is a line profile of 150 heights; set feature.shape = 'profile'"),
     ({"transpose": True}, "needs shape = 'map'"), ({"lay": "across"}, "transverse, longitudinal"),
