@@ -24,13 +24,29 @@ def _enough(holes):
 
 def _remedy(f):
     holes = hole_filling.unmeasured(f.orientation.turned(f.heights))
-    low_y, high_y, low_x, high_x = ends = measured_part(holes)
+    low_y, high_y, low_x, high_x = ends = _on_points(*measured_part(holes), *holes.shape)
     if not _large(ends) or not _enough(holes[low_y:high_y, low_x:high_x]):
         return "use a part with fewer holes (feature.offset_x, extent_x ...), or fill them in the measuring software"
     keys = [f"feature.{name}_{axis} = {value:.4g}" for axis, low, high, count, step in
             zip("xy", (low_x, low_y), (high_x, high_y), f.points, f.steps) if high - low < count
             for name, value in (("extent", (high - 1 - low) * step), ("offset", (low + high - count) / 2 * step))]
     return f"this part has fewer: {', '.join(keys)}"
+
+
+def _on_points(low_y, high_y, low_x, high_x, rows, columns):
+    """These ends, one point fewer along an axis where the centre of the part would lie half a point off the points of a part:
+    parts lose whole points on both sides.
+    """
+    return *_even(low_y, high_y, rows), *_even(low_x, high_x, columns)
+
+
+def _even(low, high, count):
+    """Ends of a part that leaves out an even number of points more on one side than on the other; the point is taken off where
+    more of them are left out.
+    """
+    if (low + high - count) % 2 == 0:
+        return low, high
+    return (low + 1, high) if low > count - high else (low, high - 1)
 
 
 def _large(ends):

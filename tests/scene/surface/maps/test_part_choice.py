@@ -1,6 +1,7 @@
 """A part of a scan is used as if it were the file: holes, slopes, level and filters are those of the part."""
 
 import dataclasses
+import re
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from map_feature import feature
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import scene
+from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.scene_warnings import preview
 from tehl_taichi.scene.surface.maps import part_choice
 
@@ -71,6 +73,30 @@ def test_holes_and_steep_places_elsewhere_do_not_count(scan, tmp_path):
 def test_a_part_lies_inside_its_file(scan, keys, words):
     with pytest.raises(SceneError, match=words):
         feature(scan, **{**PART, **keys})
+
+
+@pytest.mark.parametrize("unmeasured", [np.s_[:, :17], np.s_[:, :18], np.s_[:, 83:], np.s_[:9], np.s_[50:, :], np.s_[:, :19]])
+@pytest.mark.parametrize("transpose", [False, True])
+def test_the_part_that_a_refusal_names_is_whole(tmp_path, unmeasured, transpose):
+    """Every point of it is measured, and hardly any other is left out, whether their number is even or odd."""
+    heights = HEIGHTS.copy()
+    heights[unmeasured] = np.nan
+    np.save(tmp_path / "a.npy", heights)
+    with pytest.raises(SceneError, match="this part has fewer") as caught:
+        feature(tmp_path / "a.npy", transpose=transpose)
+    keys = {key: float(value) for key, value in re.findall(r"feature\.(\w+) = ([\d.e-]+\d)", str(caught.value))}
+    part = feature(tmp_path / "a.npy", transpose=transpose, taper=4e-6, **keys)
+    measured, side = np.isfinite(heights).sum(), max(heights.shape)
+    assert keys and not part.holes.any() and measured - side <= part.part.size <= measured
+
+
+@pytest.mark.parametrize("columns", [100, 101])
+@pytest.mark.parametrize("wide", [0.00006, 0.000065, 0.00007])
+def test_an_extent_of_whole_points_has_them(columns, wide):
+    """Although 7e-5/5e-6 is less than 14 in binary digits."""
+    f = Feature.from_heights(1e-8 * np.random.default_rng(1).random((50, columns)), 5e-6, extent_x=wide)
+    needed = round(wide / 5e-6) + 1
+    assert f.part.shape[1] == needed + (columns - needed) % 2  # as many are left out on both sides
 
 
 def test_the_part_that_is_proposed():
