@@ -10,7 +10,7 @@ from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.passage_plots import even_numbers
 from tehl_taichi.report.plots import colour, field_map, line, stack
 from tehl_taichi.scene import surface_roughness
-from tehl_taichi.scene.feature_wording import carriers, from_centre
+from tehl_taichi.scene.feature_wording import carriers, from_centre, together
 from tehl_taichi.scene.surface.maps.height_map import LEVELS
 from tehl_taichi.scene.surface.maps.map_warnings import form_taken
 from tehl_taichi.values.digits import with_error
@@ -63,7 +63,7 @@ def picture(scene):
     i, j = (even_numbers(at.size, MOST) for at in (found.x, found.y))
     x, y, values = found.x[i] * 1e6, found.y[j] * 1e6, found.values[i][:, j] * 1e6
     along = from_centre(scene)
-    caption = f"Heights of the features, on {carriers(scene)}."
+    caption = f"Heights of the features, on {carriers(scene)}{together(scene)}."
     if found.line:
         drawn_line = line(x, values[:, 0], "height", colour(0), in_legend=False)
         return stack("surface", caption, along, [("height (µm)", [drawn_line], {})], height=330)

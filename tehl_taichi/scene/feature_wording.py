@@ -36,6 +36,12 @@ def position_title(scene):
     return f"position of the {position_word(scene)} x / a"
 
 
+def together(scene):
+    """Text ' together, as they lie at X = 0' for heights of two surfaces that slide; "" for others."""
+    slide = len({surface.pace for surface in scene.surfaces if surface.features}) > 1
+    return " together, as they lie at X = 0" * slide
+
+
 def carriers(scene):
     """Text of the surfaces with features: 'surface a', 'surfaces a and b'."""
     names = [surface.name for surface in scene.surfaces if surface.features]

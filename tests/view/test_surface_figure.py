@@ -63,6 +63,19 @@ def test_all_features_pass_together():
     assert found.values[at] == pytest.approx(-5e-7, rel=1e-3) and found.values.max() == pytest.approx(1e-6, rel=1e-3)
 
 
+@pytest.mark.parametrize("srr, slide", [(-0.12, True), (0.0, False)])
+def test_the_sum_of_two_surfaces_is_that_of_one_moment(srr, slide):
+    """Where they slide, another moment has another sum."""
+    from tehl_taichi.report import surface_plots
+
+    both = passing(BUMP, {**BUMP, "surface": "b", "x": 1e-4}).replace(srr=srr)
+    one = passing(BUMP, {**BUMP, "x": 1e-4})
+    for said in (drawn(both).get_suptitle(), surface_plots.picture(both).caption):
+        assert ("surfaces a and b together, as they lie at X = 0" in said) == slide
+    assert "X = 0" not in drawn(one).get_suptitle()
+    np.testing.assert_allclose(heights(both).values, heights(one).values)
+
+
 def test_what_is_the_same_for_every_y_is_a_line_and_what_has_no_end_ends_with_the_domain():
     assert heights(scene("furrow-line")).line and heights(scene("ridge-on-ball")).line
     endless = passing({"shape": "rough", "height": 1e-7, "width": 80e-6, "extent_x": 300e-6})

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.scene.feature_wording import carriers, from_centre
+from tehl_taichi.scene.feature_wording import carriers, from_centre, together
 from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.height_profile import heights
 from tehl_taichi.view.figures.map_panels import bar
@@ -19,7 +19,7 @@ def surface(page, moments):
     figure.axes[0].set_xlabel(f"{from_centre(scene)}, flow to the right")
     low, high = (float(end) * 1e6 for end in (found.values.min(), found.values.max()))
     holes = "; light: not measured, filled in" if found.filled.any() else ""
-    page.title(figure, f"{scene.name}: heights of {carriers(scene)}, {low:.3g} to {high:.3g} µm{holes}")
+    page.title(figure, f"{scene.name}: heights of {carriers(scene)}{together(scene)}, {low:.3g} to {high:.3g} µm{holes}")
     return figure
 
 

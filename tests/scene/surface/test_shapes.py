@@ -1,6 +1,7 @@
 """The registry of feature shapes: each entry holds, and its example passes a contact."""
 
 import ast
+import math
 import pickle
 from pathlib import Path
 
@@ -35,6 +36,23 @@ def test_every_example_is_of_its_shape_and_ends_where_it_reaches(name):
     assert f.transverse == (np.ptp(heights, axis=0).max() == 0) and (not f.symmetric or np.allclose(heights, heights[::-1]))
     if f.reach_y > 0:
         assert np.abs(heights[np.abs(y) > f.reach_y]).max(initial=0.0) == 0
+
+
+@pytest.mark.parametrize("changes", [{}, {"extent_y": 200e-6}, {"length": math.inf}, {"length": math.inf, "extent_y": 200e-6},
+                                     {"lay": "longitudinal"}, {"lay": "longitudinal", "extent_y": 200e-6}, {"y": 30e-6}])
+@pytest.mark.parametrize("name", SHAPES)
+def test_a_feature_is_transverse_where_nothing_varies_along_y(name, changes):
+    """And symmetric where its heights are; the end of its patch counts as variation."""
+    shape = SHAPES[name]
+    used = {*shape.uses, *(kinds(shape.keys) if shape.keys else ()), "y"}
+    try:
+        f = Feature(**{**shape.example, **{key: value for key, value in changes.items() if key in used}})
+    except SceneError:  # waves without variation along y have length = 0
+        return
+    x, y = np.linspace(-f.reach, f.reach, 41)[:, None] / 2, np.linspace(-400e-6, 400e-6, 161)
+    heights = f.height_at(x, y - f.centre_y)
+    assert f.transverse == (np.ptp(heights, axis=1).max() == 0)
+    assert not f.symmetric or np.allclose(heights, heights[:, ::-1], atol=1e-12 * np.abs(heights).max())
 
 
 @pytest.mark.parametrize("name", SHAPES)
