@@ -16,7 +16,7 @@ from tehl_taichi.runs.summary import domain_warnings, film_warnings, rim_warning
 from tehl_taichi.runs.summary.summary_row import quantity
 from tehl_taichi.scene import yield_stress
 from tehl_taichi.scene.refinement import finer_grid_option, zoom_option
-from tehl_taichi.values.coded_text import Reason, reasons_of
+from tehl_taichi.values.coded_text import Option, Reason, reasons_of
 from tehl_taichi.values.coded_warning import coded_warning, unique, with_data
 from tehl_taichi.values.digits import micrometres, number_of, with_error
 from tehl_taichi.values.summary_values import error_of
@@ -25,6 +25,7 @@ STILL = 0.01  # of the largest plastic strain: a passage that adds less has run 
 ABOVE = 0.03  # of the largest pressure of a run: a window with so much more would make more steel flow
 OF_USER = "idle", "replaced"  # codes of warnings about what the user typed, which the scene of a store no longer knows
 MANY, FIRST = 6, 4  # numbers without an error bar: so many are all named, of more the first
+FEWER = Option("use fewer --threads", "use fewer threads")
 CROWDED = 0.1  # of the launches; a machine of one's own loses a core for a moment now and then, which costs nothing to speak of
 
 
@@ -70,8 +71,8 @@ def crowded(store, summary):
     if fewer <= CROWDED * done:
         return []
     text = (f"another program used the cores of this run: {fewer} of {done} linear-solve launches ran with one worker. The "
-            "results are equal but slower; use fewer --threads")
-    return [with_data(text, launches=int(done), with_one_worker=int(fewer))]
+            f"results are equal but slower; {FEWER}")
+    return [with_data(text, FEWER, launches=int(done), with_one_worker=int(fewer))]
 
 
 def of_single_peaks(store, summary):

@@ -12,7 +12,7 @@ from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
 from tehl_taichi.values.checks import known_names, nearest
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.digits import part_of
-from tehl_taichi.view.figures import palette
+from tehl_taichi.view.figures import palette, unknown_errors
 from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
 from tehl_taichi.view.figures.map_panels import bar
 
@@ -90,12 +90,12 @@ def lines(page, study, name):
     colours = import_matplotlib().colormaps[palette.RESULT](np.linspace(0.0, 0.9, len(values)))
     for n, (row, bars) in enumerate(zip(values, errors)):
         ax.errorbar(x, row, bars, fmt="o-", color=colours[n], label=second and second[2][n], **palette.BARS)
-        _draw_unknown_errors(ax, x, row, bars)
+        unknown_errors.draw(ax, x, row, bars)
     if second:
         page.legend(figure, title=second[1])
     _dress(ax, x_label, x, ticks, numeric(study, first))
     ax.set_ylabel(label)
-    page.title(figure, f"{study.plan.scene.name}: {column_name(name)}{_unknown(values, errors)}")
+    page.title(figure, f"{study.plan.scene.name}: {column_name(name)}{unknown_errors.words(values, errors)}")
     return figure
 
 
@@ -141,13 +141,13 @@ def points(page, study, name):
             continue
         x, x_label, ticks = axis_values(study, key, per_case=True)
         ax.errorbar(x, values, errors, fmt="o", alpha=0.7, **palette.BARS)
-        _draw_unknown_errors(ax, x, values, errors)
+        unknown_errors.draw(ax, x, values, errors)
         _dress(ax, x_label, x, ticks, numeric(study, key))
         if ax.get_xscale() == "linear" and numeric(study, key):
             ax.locator_params(axis="x", nbins=5)
     for ax in axes[:, 0]:
         ax.set_ylabel(label)
-    page.title(figure, f"{study.plan.scene.name}: {column_name(name)}{_unknown(values, errors)}")
+    page.title(figure, f"{study.plan.scene.name}: {column_name(name)}{unknown_errors.words(values, errors)}")
     return figure
 
 
@@ -160,7 +160,7 @@ def index_over_film(page, study):
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
     ax.errorbar(film, Fi, Fi_error, film_error, fmt="none", ecolor=palette.GREY, **palette.BARS)
     drawn = ax.scatter(film, Fi, c=colour, cmap=palette.RESULT, s=0.3 * page.text**2, zorder=3)
-    _draw_unknown_errors(ax, film, Fi, Fi_error)
+    unknown_errors.draw(ax, film, Fi, Fi_error)
     scale = bar(figure, drawn, ax, colour_label)
     if not numeric(study, key):
         places = dict(zip(colour.tolist(), ticks))
@@ -168,18 +168,9 @@ def index_over_film(page, study):
     ax.axhline(1.0, color=palette.GREY, ls="--")
     ax.set(xlabel=film_label, ylabel="Fi judged")
     ax.grid()
-    page.title(figure, f"{study.plan.scene.name}: Fi over the smallest film, {_count(study)}{_unknown(Fi, Fi_error)}")
+    hollow = unknown_errors.words(Fi, Fi_error)
+    page.title(figure, f"{study.plan.scene.name}: Fi over the smallest film, {_count(study)}{hollow}")
     return figure
-
-
-def _draw_unknown_errors(ax, x, y, errors):
-    """Draw points with unknown error as hollow symbols."""
-    unknown = ~np.isfinite(errors)
-    ax.plot(x[unknown], y[unknown], ".", color="white", markersize=3, zorder=4)
-
-
-def _unknown(values, errors):
-    return " (hollow: error unknown)" if (np.isfinite(values) & ~np.isfinite(errors)).any() else ""
 
 
 def _count(study):

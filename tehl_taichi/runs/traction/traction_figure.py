@@ -2,14 +2,17 @@
 bars.
 """
 
+import itertools
+
 import numpy as np
 
 from tehl_taichi.runs.traction.traction_rows import AXES, SPEED, SRR, TEMPERATURE, axis
 from tehl_taichi.values.digits import printed_unit
-from tehl_taichi.view.figures import palette
+from tehl_taichi.view.figures import palette, unknown_errors
 
 PANELS = (("friction coefficient", "friction_coefficient", ""), ("central film", "h_c_m", "m"),
           ("largest film temperature", "film_max_C", "°C"))
+ZERO = 1e-12    # of a friction coefficient in pure rolling
 DECADES = 30.0  # ratio of the ends of an axis that is logarithmic
 
 
@@ -20,8 +23,14 @@ def drawn(page, found):
     for ax, (label, key, unit) in zip(axes[:, 0], panels):
         _panel(ax, found, label, key, unit)
     _along(axes[-1, 0], found)
-    page.title(figure, title(found))
+    page.title(figure, title(found) + _explained(found, panels))
     return figure
+
+
+def _explained(found, panels):
+    """Words about hollow points, where one of the panels has some."""
+    each = (series(found, found.rows, key)[1:] for _, key, _ in panels)
+    return next(filter(None, itertools.starmap(unknown_errors.words, each)), "")
 
 
 def title(found):
@@ -44,6 +53,7 @@ def _panel(ax, found, label, key, unit):
         x, y, error = series(found, rows, key)
         bars = error * factor if np.isfinite(error).any() else None
         ax.errorbar(x, y * factor, bars, fmt=".-", color=colour, label=name or None, **palette.BARS)
+        unknown_errors.draw(ax, x, y * factor, error)
     ax.set_ylabel(f"{label} ({shown})" if shown else label)
     ax.grid()
     if len(found.curves) > 1:
@@ -74,8 +84,8 @@ def scale(found):
 
 
 def series(found, rows, key):
-    """(x, values, error bars) of the rows of a curve with this number; unknown errors are nan."""
+    """(x, values, error bars) of the rows of a curve with this number; unknown errors are nan (a zero needs none)."""
     having = [row for row in rows if row[key] is not None]
     x = [row[axis(found.study.plan, found.across)[0]] * scale(found)[0] for row in having]
-    bars = [np.nan if row["error"][key] is None else row["error"][key] for row in having]
+    bars = [row["error"][key] if row["error"][key] is not None else 0.0 if abs(row[key]) < ZERO else np.nan for row in having]
     return np.array(x, float), np.array([row[key] for row in having], float), np.array(bars, float)

@@ -110,6 +110,15 @@ def test_loads_and_pressures_make_curves_too(tmp_path):
     assert default_path(one) == default_path(traction_plan(tehl.scene("mtm"), [0.1], changes={"load": 30.0}))
 
 
+def test_points_with_an_unknown_error_are_hollow(curves):
+    """No friction in pure rolling needs no error."""
+    pytest.importorskip("matplotlib")
+    figure = traction_figure.drawn(FigureStyle(), curves)
+    hollow = [[line.get_xdata().tolist() for line in ax.lines if str(line.get_color()) == "white"] for ax in figure.axes]
+    assert hollow == [[[0.1, 0.2]] * 2, [[]] * 2, [[0.0, 0.1, 0.2]] * 2]
+    assert figure.get_suptitle() == f"{traction_figure.title(curves)} (hollow: error unknown)"
+
+
 def test_the_figure_has_error_bars_and_a_logarithmic_axis_for_decades(tmp_path, curves):
     pytest.importorskip("matplotlib")
     axes = traction_figure.drawn(FigureStyle(), curves).axes
