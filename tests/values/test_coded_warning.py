@@ -14,7 +14,17 @@ import tehl_taichi as tehl
 from tehl_taichi.errors import typed_options
 from tehl_taichi.store.store import Store
 from tehl_taichi.values.coded_text import Reason, grid_option, reasons_of, unknown_of, without_options
-from tehl_taichi.values.coded_warning import CodedWarning, Kinds, coded_warning, lists, texts, warnings_of_lists, with_data
+from tehl_taichi.values.coded_warning import (
+    CodedWarning,
+    Kinds,
+    by_kind,
+    coded_warning,
+    counted,
+    lists,
+    texts,
+    warnings_of_lists,
+    with_data,
+)
 
 
 def test_a_check_gives_its_sentence_the_registry_its_code():
@@ -81,6 +91,15 @@ def test_a_summary_has_sentences_codes_and_numbers_in_one_order(tmp_path):
     assert list(known) == summary["warnings"] and [one.data for one in known] == summary["warning_data"]
     friction = known[summary["warning_codes"].index("friction")]
     assert friction.data["friction_coefficient_max"] > friction.data["limit"] == 0.2
+
+
+def test_warnings_of_several_runs_by_kind():
+    """The first sentence of each kind with its number of cases; sentences that are said elsewhere are left out."""
+    few, many, other = CodedWarning("3 cells", "cells"), CodedWarning("9 cells", "cells"), CodedWarning("hot", "heat")
+    summaries = [("A", lists([few, other])), ("B", lists([many, other])), ("C", None), ("D", lists([few]))]
+    assert by_kind(summaries) == [{"3 cells": ["A", "D"], "9 cells": ["B"]}, {"hot": ["A", "B"]}]
+    assert by_kind(summaries, leave=[few]) == [{"hot": ["A", "B"]}, {"9 cells": ["B"]}]
+    assert counted(summaries, "4 cases", leave=["hot"]) == ["3 cells (3 of 4 cases, numbers of the first)"]
 
 
 def test_reasons_keep_their_code_in_a_summary_and_older_summaries_have_none():
