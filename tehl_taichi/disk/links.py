@@ -6,7 +6,8 @@ from pathlib import Path
 
 from tehl_taichi.errors import StoreError
 
-MARKS = ROOT, FLANK, *_ = "zarr.json", "flank.json", "bearing.json", "cam.json"  # of a store or a study, a flank ...
+ROOT = "zarr.json"  # of a store or a study
+MARKS = ROOT, "flank.json", "bearing.json", "cam.json"
 
 
 def refuse(folder):

@@ -191,7 +191,7 @@ def test_a_study_file(tmp_path):
     path.write_text("samples = 5\n[over]\nsrr = \"-0.1:0.1\"\nspeed = [5, 10]\n")
     assert study_file.load(path).count == 5
     for text, said in (("ower = 1\n[over]\nsrr = [1]", "did you mean 'over'"), ("[over]\nsrr = 1", "must be a list"),
-                       ("scene = 1\n[over]\nsrr = [1]", "name of a built-in")):
+                       ("scene = 1\n[over]\nsrr = [1]", "scene = 1 must be text")):
         path.write_text(text)
         with pytest.raises(SceneError, match=said):
             study_file.load(path)
