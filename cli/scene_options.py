@@ -5,9 +5,8 @@ GRIDS = {"coarse": (128, 32), "medium": (256, 64), "fine": (512, 128)}
 # options by another name than their key
 WORDS = {("thermal.on", True): "--thermal", ("thermal.on", False): "--isothermal", ("time.steady_only", True): "--steady",
          ("fatigue.on", True): "--fatigue", ("fatigue.on", False): "--no-fatigue",
-         **{("zoom.factor", factor): f"--zoom {factor}" for factor in (0, 2, 4, 8, 16)},
          ("numerics.estimate_error", True): "--estimate-error", ("numerics.estimate_error", False): "--no-estimate-error"}
-NAMES = {"oil.name": "oil"}  # of options that are not the end of their key
+NAMES = {"oil.name": "oil", "zoom.factor": "zoom"}  # of options that are not the end of their key
 
 
 def changes_of(options, grid, settings):

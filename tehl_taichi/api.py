@@ -191,7 +191,7 @@ def zoom(path: Name, factor: int | str = 4, *, threads: int | None = None, progr
     ----------
     path : path
         Folder of the store.
-    factor : {4, 2, 8, 0, "auto"}
+    factor : {4, 2, 8, 16, 0, "auto"}
         Cells of the window in a cell of the grid, along each axis; 0 removes the window; "auto": none where the grid resolves
         the passage, else 4, and 8 where 4 does not settle the largest pressure.
     threads, progress

@@ -4,11 +4,15 @@ import ast
 from collections import Counter
 from pathlib import Path
 
+import pytest
 import tehl_cli
 import typer
 from tehl_cli.main import app
+from tehl_cli.scene_options import changes_of
 from tehl_cli.shared_options import sharing
 from typer.testing import CliRunner
+
+from tehl_taichi.errors import SceneError, typed_options
 
 COMMANDS = typer.main.get_command(app).commands
 
@@ -49,3 +53,8 @@ def test_no_help_of_an_option_is_written_twice():
                if word.arg == "help" and isinstance(word.value, ast.Constant)]
     assert len(written) > 80
     assert [text for text, count in Counter(written).items() if count > 1] == []
+
+
+def test_a_factor_that_no_window_has_is_named_by_its_option_too():
+    with pytest.raises(SceneError, match="^--zoom 3 and --set zoom.factor=2 contradict each other"), typed_options():
+        changes_of({"zoom.factor": 3}, None, ["zoom.factor=2"])
