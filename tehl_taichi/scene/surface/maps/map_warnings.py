@@ -24,7 +24,7 @@ from tehl_taichi.values.coded_text import Option, grid_option
 from tehl_taichi.values.coded_warning import with_data
 from tehl_taichi.values.digits import number_of
 
-TURNED = "Heights point out of the metal and most bodies are convex; if the map is upside down, set feature.scale = -1"
+TURNED = "Heights point out of the metal and most bodies are convex; if the map is upside down, set feature.scale = "
 LEFT = 0.5  # of the rms that a taper ought to leave
 RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
 
@@ -115,7 +115,7 @@ def form(f):
     found = f.form
     if not found.dominant:
         return
-    turned = "" if found.convex else f". {TURNED}"
+    turned = "" if found.convex else f". {TURNED}{-f.scale:g}"
     if f.level != "form":
         yield (f"{_name(f)}: all but {_um(found.left)} um of its rms of {_um(found.flat)} um are one curvature, {found.says}. "
                "If this is the curvature of the body, which the scene already has, set feature.level = 'form' to remove "

@@ -7,6 +7,7 @@ from map_feature import feature
 import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import grid_for_error, scene
+from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.surface.maps import height_map
 
 
@@ -55,6 +56,14 @@ def test_a_scan_with_the_form_of_its_body_is_doubted_and_rid_of_it(tmp_path):
     assert float(bumpy.height_at(np.zeros(1), np.zeros(1))[0]) == pytest.approx(1.2e-6, abs=0.35e-6)
 
 
+@pytest.mark.parametrize("extent_x, axis, radius", [(0.0, "x", 12.0), (80e-6, "y", 8.0)])
+def test_the_form_is_named_along_the_axis_with_the_larger_sag(extent_x, axis, radius):
+    """Of the part that is used: 400 or 80 um along x, bent to 12 mm, 160 um along y, bent to 8 mm."""
+    y, x = np.mgrid[-16:17, -40:41] * 5e-6
+    f = Feature.from_heights(-x**2 / 0.024 - y**2 / 0.016, 5e-6, extent_x=extent_x)
+    assert f.form.says == f"convex with a radius of {radius:g} mm along {axis}"
+
+
 def test_bumps_are_no_form(tmp_path):
     y, x = np.mgrid[-1:1:81j, -1:1:81j]
     for name, bump in (("round", np.cos(np.pi * np.minimum(np.hypot(x, y), 1))), ("ridge", np.cos(np.pi * x))):
@@ -69,6 +78,9 @@ def test_a_scan_that_is_upside_down_is_asked_about(tmp_path):
         said, = (text for text in feature(hollow, pixel=5e-6, level=level).kind.doubts(
             feature(hollow, pixel=5e-6, level=level), scene("gear")) if "radius of" in text)
         assert "concave with a radius of 12 mm along x" in said and "feature.scale = -1" in said
+        np.save(tmp_path / "hill.npy", -np.load(hollow))
+        inverted = feature(tmp_path / "hill.npy", pixel=5e-6, level=level, scale=-0.5)  # although it is not upside down
+        assert "set feature.scale = 0.5" in "".join(inverted.kind.doubts(inverted, scene("gear")))
         right = feature(hollow, pixel=5e-6, level=level, scale=-1.0)
         assert "upside" not in "".join(right.kind.doubts(right, scene("gear")))
     first, _ = right.kind.preview(right, scene("gear"))
