@@ -20,7 +20,7 @@ REGULAR = 0.79  # of the steps in a column of coordinates are one and the same: 
 @dataclass(frozen=True)
 class Coordinates:
     """heights: without their coordinates; x, y: distances of the coordinates along a row and from row to row, in their own
-    unit; None without coordinates, or if they are only running numbers.
+    unit, negative if they fall; None without coordinates, or if they are only running numbers.
     """
 
     heights: np.ndarray
@@ -175,10 +175,10 @@ def is_even(many):
 
 
 def step(many):
-    """Distance of coordinates; None if there are none or if they count from 0 or 1."""
+    """Distance of coordinates, negative if they fall; None if there are none or if they count from 0 or 1."""
     if many is None or many[0] in (0, 1) and _even(many) == 1:
         return None
-    return abs(float((many[-1] - many[0]) / (many.size - 1)))
+    return float((many[-1] - many[0]) / (many.size - 1))
 
 
 def is_narrow(values):

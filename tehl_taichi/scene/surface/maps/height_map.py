@@ -34,12 +34,14 @@ TEXT = (".csv", ".txt", ".asc", ".xyz")  # endings of files of text
 @dataclass(frozen=True)
 class Facts:
     """Facts of a file besides its heights; empty without a file (a store, an array). skipped: description of skipped parts;
-    spacing: distances (along a row, from row to row) of its coordinates, None without any; stated: its unit and distances in m.
+    spacing: distances (along a row, from row to row) of its coordinates, None without any; stated: its unit and distances in m;
+    falling: whether its coordinates fall (along a row, from row to row).
     """
 
     skipped: str = ""
     spacing: tuple = (None, None)
     stated: Stated = Stated()
+    falling: tuple = (False, False)
 
 
 def keep(values):
@@ -63,7 +65,7 @@ def fetch(file, sha256=""):
         return sha256, known
     table = table_of(file)
     found, values = keep(table.values)
-    _facts[str(file), found] = Facts(table.skipped, table.spacing, table.stated)
+    _facts[str(file), found] = Facts(table.skipped, table.spacing, table.stated, table.falling)
     if sha256 and found != sha256:
         raise SceneError(f"feature.file = {file!r} has changed since this scene was made (feature.sha256 = {sha256[:12]}..., "
                          f"not {found[:12]}...); remove feature.sha256 to use the present file")

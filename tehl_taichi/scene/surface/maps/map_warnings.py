@@ -30,10 +30,10 @@ RIM = 0.1  # of the rms: a step at the rim below that is roughness like the rest
 
 
 def doubts(f, scene):
-    """Warnings about a map: holes, spikes, the form of its body, flat or rough heights, points finer or coarser than the grid,
-    an end with a step, a wide taper.
+    """Warnings about a map: falling coordinates, holes, spikes, the form of its body, flat or rough heights, points finer or
+    coarser than the grid, an end with a step, a wide taper.
     """
-    return [*_holes(f), *_spikes(f), *_row_offsets(f), *form(f), *_across(f, scene), *_size(f), *_rough(f, scene),
+    return [*_falling(f), *_holes(f), *_spikes(f), *_row_offsets(f), *form(f), *_across(f, scene), *_size(f), *_rough(f, scene),
             *_grid(f, scene), *_rim(f), *_faded(f)]
 
 
@@ -80,6 +80,14 @@ def _apart(f):
 
 def _um(value):
     return f"{value * 1e6:.4g}"
+
+
+def _falling(f):
+    """Warnings about coordinates of the file that fall along an axis on which its heights are not reversed."""
+    for axis, falls in zip("xy", f.orientation.swapped(height_map.facts(f).falling)):
+        if falls and not getattr(f, f"mirror_{axis}"):
+            yield (f"{_name(f)}: its coordinates fall along {axis}, and its heights keep the order of the file; if {axis} of "
+                   f"the scan is to be {axis} of the contact, set feature.mirror_{axis} = true")
 
 
 def _holes(f):

@@ -41,8 +41,8 @@ def _on_points(low_y, high_y, low_x, high_x, rows, columns):
 
 
 def _even(low, high, count):
-    """Ends of a part that leaves out an even number of points more on one side than on the other; the point is taken off where
-    more of them are left out.
+    """Ends of a part that leaves out an even number of points more on one side than on the other; one point more is left out
+    where more of them are.
     """
     if (low + high - count) % 2 == 0:
         return low, high

@@ -21,7 +21,8 @@ NUMBER = re.compile(r"^\s*\d+\s*=")
 @dataclass(frozen=True)
 class Table:
     """values: heights (rows, columns) in the unit of the file, nan if not measured; stated: its unit and distances;
-    header_lines: lines before the first row; inside: number of comment lines (#) after it (none for binary files).
+    header_lines: lines before the first row; inside: number of comment lines (#) after it (none for binary files); falling:
+    whether its coordinates fall (along a row, from row to row).
     """
 
     values: np.ndarray
@@ -30,6 +31,7 @@ class Table:
     inside: int = 0
     beside: tuple = ()
     spacing: tuple = (None, None)
+    falling: tuple = (False, False)
 
     def without_coordinates(self):
         """Table of the heights alone, of a line profile in one row; see :meth:`_grid`."""
@@ -55,9 +57,10 @@ class Table:
         return replace(self, values=found.heights, beside=found.found_lines, spacing=(found.x, found.y))._with_stated()
 
     def _with_stated(self):
-        """Table with the values that its header states."""
+        """Table with the values that its header states, and with positive distances."""
         stated = stated_values.in_header(self.header_lines, self.values.shape) if self.header_lines else self.stated
-        return replace(self, stated=stated.with_spacing(self.spacing))
+        falling, spacing = zip(*((bool(step and step < 0), step and abs(step)) for step in self.spacing))
+        return replace(self, stated=stated.with_spacing(spacing), spacing=spacing, falling=falling)
 
     @property
     def skipped(self):

@@ -1,6 +1,7 @@
 """Which way round a scan lies: a file that is turned by keys is the file that was turned by hand."""
 
 import dataclasses
+import re
 
 import numpy as np
 import pytest
@@ -41,6 +42,41 @@ def test_a_turned_file_is_the_file_turned_by_hand(scan, keys):
     x, y = np.linspace(-40e-6, 40e-6, 33)[:, None], np.linspace(-40e-6, 40e-6, 27)
     np.testing.assert_array_equal(one.height_at(x, y), hand.height_at(x, y))
     assert one.sha256 == feature(scan, **STEPS).sha256  # the heights of the file
+
+
+def warned(f):
+    """Keys that warnings about falling coordinates name."""
+    said = " ".join(one for one in f.kind.doubts(f, scene("gear")) if "coordinates fall" in one)
+    return dict.fromkeys(re.findall(r"set feature\.(mirror_[xy]) = true", said), True)
+
+
+@pytest.mark.parametrize("rows", [1, -1])
+@pytest.mark.parametrize("columns", [1, -1])
+@pytest.mark.parametrize("transpose", [False, True])
+def test_coordinates_that_fall_are_reported_and_turned_on_request(tmp_path, rows, columns, transpose):
+    """With the keys of the warnings the table is the surface that its list of points gives."""
+    x, y = 2.0 * np.arange(14), 3.0 * np.arange(12)
+    z = np.round(np.random.default_rng(7).normal(0, 0.05, (12, 14)).cumsum(1), 4)
+    points = [(a, b, z[j, i]) for j, b in enumerate(y) for i, a in enumerate(x)]
+    np.savetxt(tmp_path / "list.csv", points, delimiter=",", fmt="%.9g")
+    table = np.block([[np.array([[np.nan]]), x[None, ::columns]], [y[::rows, None], z[::rows, ::columns]]])
+    np.savetxt(tmp_path / "table.csv", table.T if transpose else table, delimiter=",", fmt="%.9g")
+    steps = dict(zip(STEPS, reversed(STEPS.values()))) if transpose else STEPS
+    listed, own = feature(tmp_path / "list.csv", **STEPS, taper=4e-6), {**steps, "taper": 4e-6, "transpose": transpose}
+    keys = warned(feature(tmp_path / "table.csv", **own))
+    assert set(keys) == {*["mirror_x"] * (columns < 0), *["mirror_y"] * (rows < 0)}
+    f = feature(tmp_path / "table.csv", **own, **keys)
+    np.testing.assert_array_equal(f.whole_heights, listed.whole_heights)
+    assert not warned(f) and not warned(listed) and f.steps == listed.steps
+
+
+def test_a_profile_whose_places_fall_is_reported(tmp_path):
+    x = 2e-3 * np.arange(30)[::-1]
+    np.savetxt(tmp_path / "a.txt", np.column_stack([x, np.sin(np.arange(30.0))]))
+    for lay, key in (("transverse", "mirror_x"), ("longitudinal", "mirror_y")):
+        keys = {"shape": "profile", "unit": "nm", "pixel": 2e-6, "lay": lay, "taper": 5e-6}
+        assert set(warned(feature(tmp_path / "a.txt", **keys))) == {key}
+        assert not warned(feature(tmp_path / "a.txt", **keys, **{key: True}))
 
 
 def test_ends_change_places_along_the_axis_that_is_named(scan):
