@@ -195,3 +195,14 @@ def test_a_list_of_few_rounded_points_is_a_grid():
         x, y = (one.ravel() for one in np.meshgrid(places, places))
         found = point_lists.grid_of(np.column_stack([x, y, z.ravel()]))
         assert (found is not None) == known and (not known or np.array_equal(found[0], z))
+
+
+def test_a_list_may_lack_nearly_half_of_its_grid():
+    """Of 168 points 100 are listed, in any order; the others are holes."""
+    y, x = np.mgrid[:12, :14]
+    z, listed = np.random.default_rng(3).normal(size=(12, 14)), np.random.default_rng(4).permutation(168)[:100]
+    points = np.column_stack([2.0 * x.ravel(), 3.0 * y.ravel(), z.ravel()])[listed]
+    heights, step_x, step_y = point_lists.grid_of(points)
+    assert (heights.shape, step_x, step_y) == ((12, 14), 2.0, 3.0) and np.isfinite(heights).sum() == 100
+    np.testing.assert_array_equal(heights.ravel()[listed], z.ravel()[listed])
+    assert point_lists.grid_of(points[:70]) is None

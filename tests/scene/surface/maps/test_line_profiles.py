@@ -196,3 +196,12 @@ def test_a_scene_for_a_profile(column, tmp_path):
     np.save(tmp_path / "map.npy", np.ones((20, 30)))
     done = tehl("new", "c.toml", "--scan", "map.npy", "--lay", "transverse", cwd=tmp_path)
     assert done.returncode == 2 and "--lay transverse has no effect" in done.stderr
+
+
+@pytest.mark.parametrize("falls", [False, True])
+def test_uneven_places_keep_their_heights_in_either_direction(falls):
+    x = np.cumsum(np.random.default_rng(8).uniform(0.5, 1.5, 40))
+    x = x[::-1] if falls else x
+    heights, step, found = line_profiles.heights_of(np.column_stack([x, 0.3 * x + 1]))
+    np.testing.assert_allclose(heights[0], 0.3 * np.linspace(x[0], x[-1], 40) + 1, rtol=1e-12)
+    assert found[-1] == line_profiles.UNEVEN and step == pytest.approx((x[-1] - x[0]) / 39)

@@ -108,3 +108,11 @@ def test_a_scene_is_written_for_a_scan_that_is_too_steep(tmp_path):
     assert tehl("run", "a.toml", "--dry-run", cwd=tmp_path).returncode == 2
     file.write_text(file.read_text().replace("# cutoff = 25e-6", "cutoff = 60e-6"))
     assert tehl("run", "a.toml", "--dry-run", cwd=tmp_path).returncode == 0
+
+
+@pytest.mark.parametrize("rows, columns, found", [(4, 4, 16), (3, 5, 15), (4, 5, 0), (2, 10, 0)])
+def test_a_spike_has_sixteen_points_at_most(rows, columns, found):
+    heights = surface()
+    heights[40:40 + rows, 50:50 + columns] += 6e-6
+    mask = outliers.spikes(heights, (2e-6, 2e-6))
+    assert mask.sum() == found == mask[40:40 + rows, 50:50 + columns].sum()
