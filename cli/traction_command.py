@@ -11,18 +11,20 @@ from tehl_cli.missing_results import refuse_missing
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 
-LIST = "values a,b,c or low:high:N or low:high:N:log, units allowed: 0:50%:11"
+LIST = "values a,b,c or low:high:N or low:high:N:log, units allowed:"
 
 
 def traction(
     scene: str = typer.Argument(..., help="built-in name, TOML scene or store; its features are left out"),
     context: typer.Context = None,
-    srr: str = typer.Option("0:0.5:11", help=f"slide-roll ratios, {LIST}"),
-    temperature: Optional[str] = typer.Option(None, help=f"inlet temperatures, deg C, {LIST} (default: that of the scene)"),
-    speed: Optional[str] = typer.Option(None, help=f"mean speeds, m/s, {LIST}; with one --srr a Stribeck curve"),
+    srr: str = typer.Option("0:0.5:11", help=f"slide-roll ratios, {LIST} 0:50%:11"),
+    temperature: Optional[str] = typer.Option(None, help=f"inlet temperatures, deg C, {LIST} 40,80,120C (default: that of "
+                                                                    "the scene)"),
+    speed: Optional[str] = typer.Option(None, help=f"mean speeds, m/s, {LIST} 100mm/s:10m/s:9:log; with one --srr a "
+                                                              "Stribeck curve"),
     oil: usual.Oil = None,
-    load: Optional[str] = typer.Option(None, help=f"loads, N (line: N/m), {LIST}"),
-    hertz_pressure: Optional[str] = typer.Option(None, help=f"Hertz pressures instead of loads, Pa, {LIST}"),
+    load: Optional[str] = typer.Option(None, help=f"loads, N (line: N/m), {LIST} 20:60:3N"),
+    hertz_pressure: Optional[str] = typer.Option(None, help=f"Hertz pressures instead of loads, Pa, {LIST} 0.75,1,1.25GPa"),
     thermal: usual.UsuallyThermal = None, set_: usual.SetInAll = None, grid: usual.Grid = None,
     out: Optional[Path] = typer.Option(None, help="study to write or resume (default: runs/NAME-traction-ID.zarr)"),
     figure: bool = typer.Option(True, "--figure/--no-figure", help="draw traction.png (.pdf, .svg) beside the study"),

@@ -8,6 +8,7 @@ from tehl_taichi.errors import StoreError
 
 ROOT = "zarr.json"  # of a store or a study
 MARKS = ROOT, "flank.json", "bearing.json", "cam.json"
+SPECIAL = "a special file"  # such as /dev/null, which nobody should remove
 
 
 def refuse(folder):
@@ -29,7 +30,7 @@ def special_kind(status):
     if stat.S_ISLNK(status.st_mode):
         return "a link"
     if not stat.S_ISREG(status.st_mode):
-        return "a special file"
+        return SPECIAL
     return "a hard link" if status.st_nlink > 1 else ""
 
 

@@ -53,7 +53,8 @@ def check(path, force=False, kind="", parts="", of=None):
     if not os.path.lexists(path):
         return
     if what := links.special_kind(os.lstat(path)):
-        raise StoreError(f"{path} is {what}, and tehl does not write through links; remove it or choose another --out")
+        remedy = "choose another --out" if what == links.SPECIAL else "remove it or choose another --out"
+        raise StoreError(f"{path} is {what}, and tehl does not write through links; {remedy}")
     if links.is_folder(path) != bool(parts):
         what = "not a folder" if parts else "a folder"
         raise StoreError(f"{path} exists and is {what}; --out takes the name of a {'folder' if parts else 'file'}")

@@ -58,6 +58,7 @@ def test_a_file_that_is_there(run, tmp_path, command):
         for more in ((), ("--force",)):
             code, said = cli(*words, "--out", out, *more)
             assert code == 2 and f"{out} is a {('link', 'special file')[number]}" in said
+            assert ("remove it" in said) == (number == 0)
         assert not (tmp_path / "thesis").exists() and os.path.lexists(out)
         out.unlink()
     assert [path.name for path in out.parent.iterdir()] == []

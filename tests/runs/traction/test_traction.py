@@ -2,11 +2,14 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
+import typer.main
 from commands import here
 from tehl_cli import traction_command
+from tehl_cli.main import app
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError
@@ -96,6 +99,14 @@ def test_the_title_has_the_oil_and_what_all_cases_have_in_common(tmp_path, curve
     speeds = traction("gear", [0.1], speed=[1.0, 2.0], changes={"oil.name": "mineral-vg100"}, path=tmp_path / "s.zarr",
                       workers=1, work=made)
     assert traction_figure.title(speeds) == "gear: traction, mineral-vg100, slide-roll ratio SRR 0.1, inlet temperature 90 °C"
+
+
+@pytest.mark.parametrize("option", ["srr", "temperature", "speed", "load", "hertz_pressure"])
+def test_the_example_in_the_help_of_an_option_is_one_of_its_quantity(option):
+    command = typer.main.get_command(app).commands["traction"]
+    said, = (parameter.help for parameter in command.params if parameter.name == option)
+    example = re.search(r"units allowed: (.*?)(?:;| \(|$)", said)[1]
+    assert traction_plan(tehl.scene("mtm"), **{option: example}).count in (3, 9, 11, 33, 99)
 
 
 def test_loads_and_pressures_make_curves_too(tmp_path):
