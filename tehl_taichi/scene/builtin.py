@@ -60,7 +60,7 @@ BUILT_INS = {
             "traction rig: 3/4 inch steel ball on a steel disc, 1 GPa (base of traction curves)"),
     "ball-on-glass": (Scene(name="ball-on-glass", contact=RIG, body_b=GLASS, features=(), oil=OILS["mineral-vg68"],
                             operation=Operation(u_m=0.3, srr=0.0, temperature=40.0), grid=Grid(nx=192, ny=48)),
-                      "optical rig: 3/4 inch steel ball on a glass disc, 20 N, 0.54 GPa, pure rolling (interference colours: "
+                      "optical rig: 3/4 inch steel ball on a glass disc, 20 N, 0.53 GPa, pure rolling (interference colours: "
                       "`tehl plot --interference chromatic`)"),
     "twin-disc": (Scene(name="twin-disc", contact=DISCS, features=(), operation=Operation(u_m=3.0, srr=0.05, temperature=60.0),
                         oil=VG100, grid=Grid(nx=384)),

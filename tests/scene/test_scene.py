@@ -1,6 +1,7 @@
 """Scenes: defaults, checks at the door, files."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -213,3 +214,13 @@ def test_contacts_of_machines_are_those_of_their_commands():
     rigs = ("mtm", "twin-disc", "ball-on-glass", "ball-bearing", "roller-bearing", "cam")
     doubts = [line for name in rigs for line in scene(name).warnings()]
     assert all(line.startswith("thick film") for line in doubts)
+
+
+@pytest.mark.parametrize("name", BUILT_INS)
+def test_the_words_about_a_built_in_scene_have_its_pressure_and_slip(name):
+    """In as many digits as they show."""
+    made, words = BUILT_INS[name]
+    for said in re.findall(r"([\d.]+) GPa", words):
+        assert f"{Scales.of(made).p_H / 1e9:.{len(said.partition('.')[2])}f}" == said
+    for said in re.findall(r"SRR ([-+]?[\d.]+)[):,]", words.replace("(SRR -1 or 1: sliding)", "")):
+        assert float(said) == made.operation.srr
