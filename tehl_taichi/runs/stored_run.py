@@ -71,7 +71,9 @@ class Run:
 
     @property
     def summary(self) -> dict:
-        """The JSON object of `tehl run --json` (SI units in the names); {} if the run is not finished."""
+        """The JSON object of `tehl run --json` (SI units in the names), with arguments of Python in place of options; {} if the
+        run is not finished.
+        """
         return summary_for_reader(self.store.summary)
 
     @property

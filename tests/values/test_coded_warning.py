@@ -12,6 +12,9 @@ from small_stores import store
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import typed_options
+from tehl_taichi.runs.bearing.ring_contacts import RINGS
+from tehl_taichi.runs.sweep import sweeping
+from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.store.store import Store
 from tehl_taichi.values.coded_text import Reason, grid_option, reasons_of, unknown_of, without_options
 from tehl_taichi.values.coded_warning import (
@@ -74,6 +77,26 @@ def test_warnings_name_arguments_in_python_and_options_on_the_command_line(tmp_p
         assert run.summary == done and scene.warnings() == scene.typed_warnings != run.warnings
     assert [without_options(one) for one in run.warnings] == [without_options(one) for one in run.store.warnings]
     assert "a grid of 128 columns" in without_options(film)
+
+
+SAID = {"left_out": ["temperatures (--thermal computes them)"],
+        **lists([with_data("use --grid 64", grid_option(SimpleNamespace(one_dimensional=True), 64, 16))])}
+
+
+def made_up(job, progress=None):
+    return {"status": "converged", "reason": "", "seconds": 0.1, "summary": {"steady": {"h_c_m": 1e-7}, **SAID}}
+
+
+def test_summaries_of_studies_and_contacts_name_arguments_and_are_stored_with_options(tmp_path):
+    made = sweeping.run(plan(tehl.scene("gear"), {"srr": [0.1]}), tmp_path / "s.zarr", workers=1, work=made_up)
+    bearing = tehl.Bearing(tmp_path, {"name": "6206", **{ring: {"p_Hertz_Pa": 1e9, "summary": SAID} for ring in RINGS}})
+    for summary in (made.results()[0]["summary"], *(bearing.rings[ring]["summary"] for ring in RINGS)):
+        assert summary["warnings"] == ["use grid.nx=64"]
+        assert summary["left_out"] == ["temperatures (thermal.on=True computes them)"]
+        assert summary["warning_data"] == [{"options": {"grid.nx=64": "a grid of 64 columns"}}]
+    assert "use --grid 64" in (made.path / "cases.jsonl").read_text()
+    with typed_options():
+        assert made.results()[0]["summary"]["warnings"] == ["use --grid 64"] and bearing.rings["inner"]["summary"] == SAID
 
 
 def test_progress_names_arguments_in_python(tmp_path):
