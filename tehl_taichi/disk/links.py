@@ -8,7 +8,7 @@ from tehl_taichi.errors import StoreError
 
 ROOT = "zarr.json"  # of a store or a study
 MARKS = ROOT, "flank.json", "bearing.json", "cam.json"
-SPECIAL = "a special file"  # such as /dev/null, which nobody should remove
+SPECIAL = "a special file"  # such as /dev/null, which must stay
 
 
 def refuse(folder):
