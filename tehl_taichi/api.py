@@ -56,6 +56,11 @@ def _opened(of):
     return open_run(of)
 
 
+def _loaded(of):
+    """The scene of a name or a path; anything else unchanged."""
+    return scene(of) if isinstance(of, (str, PathLike)) else of
+
+
 def scene(name: "Name | Scene" = "gear") -> "Scene":
     """Load a scene: a built-in one, a TOML file, or the scene of a stored run.
 
@@ -257,13 +262,13 @@ def open(path: Name) -> "Run | Study | Flank | Bearing | Cam":
     return open_results.open(path)
 
 
-def march(scene: "Scene | str", state: dict | None = None, precision: str | None = None) -> "Iterator[Snapshot]":
+def march(scene: "Scene | Name", state: dict | None = None, precision: str | None = None) -> "Iterator[Snapshot]":
     """Iterate over the states of a run in memory: the steady start, then one snapshot per time step.
 
     Parameters
     ----------
-    scene : Scene or str
-        A Scene, or the name of a built-in one. Several scenes may be marched at the same time, in any order.
+    scene : Scene, str or path
+        A Scene, or a name that :func:`tehl_taichi.scene` loads. Several scenes may be marched at the same time, in any order.
     state : dict, optional
         `snapshot.state` of the newest snapshot of an earlier march of this scene, from which to continue.
     precision : {"f32", "f64"}, optional
@@ -291,12 +296,13 @@ def march(scene: "Scene | str", state: dict | None = None, precision: str | None
     1 (65, 17) 1.93 GPa
     2 (65, 17) 1.93 GPa
     """
+    of = _loaded(scene)
     from tehl_taichi.march import march
 
-    return march(scene, state, precision)
+    return march(of, state, precision)
 
 
-def simulate(scene: "Scene | str", precision: str | None = None) -> "list[Snapshot]":
+def simulate(scene: "Scene | Name", precision: str | None = None) -> "list[Snapshot]":
     """Run a scene in memory and return all its snapshots; for long runs use :func:`tehl_taichi.run`.
 
     Parameters
@@ -325,16 +331,17 @@ def simulate(scene: "Scene | str", precision: str | None = None) -> "list[Snapsh
 
 
 @overload
-def fatigue(of: "Run | Name | Sequence[Snapshot] | Iterator[Snapshot]", scene: "Scene | None" = None, *, progress: Any = None,
-            threads: int | None = None, until: float | None = None, **constants: Any) -> "SearchResult": ...
+def fatigue(of: "Run | Name | Sequence[Snapshot] | Iterator[Snapshot]", scene: "Scene | Name | None" = None, *,
+            progress: Any = None, threads: int | None = None, until: float | None = None, **constants: Any
+            ) -> "SearchResult": ...
 
 
 @overload
-def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, threads: int | None = None,
+def fatigue(of: Any, scene: "Scene | Name | None" = None, *, progress: Any = None, threads: int | None = None,
             until: None = None, **constants: Any) -> "Points": ...
 
 
-def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, threads: int | None = None,
+def fatigue(of: Any, scene: "Scene | Name | None" = None, *, progress: Any = None, threads: int | None = None,
             until: float | None = None, **constants: Any) -> "SearchResult | Points":
     """Recompute the fatigue of a run with other constants, or compute that of snapshots or of given stress histories.
 
@@ -343,7 +350,7 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
     of : Run or path, sequence of Snapshot, or array
         A run (its store is not changed); snapshots of `scene`; or stresses in Pa of shape (points, times, 6), for one point
         also (times, 6): xx, yy, zz, xy, xz, yz with z normal to the surface.
-    scene : Scene, optional
+    scene : Scene, str or path, optional
         Of a run: a scene that differs in [fatigue] only. Of snapshots: theirs. Of stresses: the scene whose constants are used.
     progress : Progress, optional
         Receives the parts of the search.
@@ -386,7 +393,7 @@ def fatigue(of: Any, scene: "Scene | None" = None, *, progress: Any = None, thre
     """
     from tehl_taichi.fatigue import fatigue
 
-    return fatigue(_opened(of), scene, progress=progress, threads=threads, until=until, **constants)
+    return fatigue(_opened(of), _loaded(scene), progress=progress, threads=threads, until=until, **constants)
 
 
 def stresses(pressure: Any, traction_x: Any = None, traction_y: Any = None, dx: float | None = None, dy: float | None = None,
@@ -440,7 +447,7 @@ def stresses(pressure: Any, traction_x: Any = None, traction_y: Any = None, dx: 
     return given_tractions.stresses(pressure, traction_x, traction_y, dx, dy, depths, nu)
 
 
-def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None = None, threads: int | None = None,
+def crack(of: Any, scene: "Scene | Name | None" = None, *, thermal_stress: bool | None = None, threads: int | None = None,
           **options: Any) -> "CrackResult":
     """Follow cracks of one body from both sides of the feature under the loads of its passage.
 
@@ -448,7 +455,7 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
     ----------
     of : Run or path, or sequence of Snapshot
         A run (its store is not changed), or snapshots of `scene`.
-    scene : Scene, optional
+    scene : Scene, str or path, optional
         Scene of the snapshots.
     thermal_stress : bool, optional
         Include the thermal stress; default: as in the scene.
@@ -486,7 +493,7 @@ def crack(of: Any, scene: "Scene | None" = None, *, thermal_stress: bool | None 
     """
     from tehl_taichi.crack import crack
 
-    return crack(_opened(of), scene, thermal_stress=thermal_stress, threads=threads, **options)
+    return crack(_opened(of), _loaded(scene), thermal_stress=thermal_stress, threads=threads, **options)
 
 
 def sweep(scene: "Scene | Name", over: Mapping, path: Name | None = None, *, samples: int | None = None,
@@ -552,9 +559,10 @@ def sweep(scene: "Scene | Name", over: Mapping, path: Name | None = None, *, sam
 
 
 def flank(gear: "Name | GearPair" = "fzg-c", *, torque: float | None = None, speed: float | None = None,
-          on: str | None = None, positions: int | None = None, at: Sequence[str | float] = (), scene: "Scene | None" = None,
-          changes: dict | None = None, steady: bool = False, folder: Name | None = None, workers: int | None = None,
-          threads: int | None = None, progress: "Progress | None" = None) -> "Flank":
+          on: str | None = None, positions: int | None = None, at: Sequence[str | float] = (),
+          scene: "Scene | Name | None" = None, changes: dict | None = None, steady: bool = False,
+          folder: Name | None = None, workers: int | None = None, threads: int | None = None,
+          progress: "Progress | None" = None) -> "Flank":
     """Compute film, pressure, temperatures and fatigue along a gear flank, one run per mesh position.
 
     Workers import the calling script: put its calls below `if __name__ == "__main__":`.
@@ -571,7 +579,7 @@ def flank(gear: "Name | GearPair" = "fzg-c", *, torque: float | None = None, spe
         Number of mesh positions.
     at : sequence, optional
         Mesh positions: letters ("C", "B-") or positions x_pl along the path of contact in m.
-    scene : Scene, optional
+    scene : Scene, str or path, optional
         Everything but contact and speeds; default: the scene that the file names, otherwise "gear".
     changes : dict, optional
         Changes of that scene, as for :meth:`Scene.replace`.
@@ -608,7 +616,7 @@ def flank(gear: "Name | GearPair" = "fzg-c", *, torque: float | None = None, spe
     ...
     tehl_taichi.errors.SceneError: gear.torque = 0 N m is out of range; allowed: more than 0 N m and at most 1e+08 N m
     """
-    _use_plugins(gear)
+    _use_plugins(gear, scene)
     from tehl_taichi.runs.flank.flank_run import flank
 
     return flank(gear, torque=torque, speed=speed, on=on, positions=positions, at=at, scene=scene, changes=changes,
@@ -617,7 +625,7 @@ def flank(gear: "Name | GearPair" = "fzg-c", *, torque: float | None = None, spe
 
 def bearing(what: "Name | RollingBearing", *, load: float | None = None, axial: float | None = None, speed: float | None = None,
             dimensions: dict | None = None, on: str = "inner", feature: "Feature | None" = None, roughness: float | None = None,
-            scene: "Scene | None" = None, changes: dict | None = None, steady: bool = False, run: bool = True,
+            scene: "Scene | Name | None" = None, changes: dict | None = None, steady: bool = False, run: bool = True,
             folder: Name | None = None, workers: int | None = None, threads: int | None = None,
             progress: "Progress | None" = None) -> "Bearing":
     """Compute a rolling bearing: load of every element, contacts of the most loaded one with both rings, a run of each.
@@ -640,7 +648,7 @@ def bearing(what: "Name | RollingBearing", *, load: float | None = None, axial: 
         A dent or scan that passes; default: the features of `scene`, none without a scene.
     roughness : float, optional
         Rms height in m of both surfaces together, for lambda.
-    scene : Scene, optional
+    scene : Scene, str or path, optional
         Oil, bodies, features and numerics; default: the scene that the file names, otherwise "gear" without its feature.
     changes : dict, optional
         Changes of that scene, as for :meth:`Scene.replace`.
@@ -682,7 +690,7 @@ def bearing(what: "Name | RollingBearing", *, load: float | None = None, axial: 
                    threads=threads, progress=progress)
 
 
-def cam(table: Name, *, feature: "Feature | None" = None, scene: "Scene | None" = None, changes: dict | None = None,
+def cam(table: Name, *, feature: "Feature | None" = None, scene: "Scene | Name | None" = None, changes: dict | None = None,
         steady: bool = False, folder: Name | None = None, workers: int | None = None, threads: int | None = None,
         progress: "Progress | None" = None) -> "Cam":
     """Compute the line contacts of a cam and its follower at every angle of a table.
@@ -716,6 +724,7 @@ def cam(table: Name, *, feature: "Feature | None" = None, scene: "Scene | None" 
     ...
     tehl_taichi.errors.SceneError: cannot read table cycle.csv: No such file or directory
     """
+    _use_plugins(scene)
     from tehl_taichi.runs.cam.cam_run import cam
 
     return cam(table, feature=feature, scene=scene, changes=changes, steady=steady, folder=folder, workers=workers,

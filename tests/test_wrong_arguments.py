@@ -140,6 +140,21 @@ def test_a_path_is_its_run(tmp_path):
 
 
 @pytest.mark.usefixtures("taichi_cpu")
+def test_a_file_is_its_scene(tmp_path):
+    """Wherever a scene is taken, and as text or path."""
+    file = tmp_path / "line.toml"
+    file.write_text('base = "smooth-line"\n[grid]\nnx = 32\n[thermal]\non = false\n')
+    wanted = tehl.simulate(LINE)[0].scalars["h_c_m"]
+    assert [tehl.simulate(one)[0].scalars["h_c_m"] for one in (file, str(file))] == [wanted, wanted]
+    strong = tmp_path / "strong.toml"
+    strong.write_text('base = "gear"\n[fatigue]\nendurance = "800 MPa"\n')
+    assert tehl.fatigue([[1e8] * 6], strong).Fi == tehl.fatigue([[1e8] * 6], endurance=800e6).Fi
+    for call in (tehl.march, tehl.simulate, lambda name: tehl.fatigue([[1e8] * 6], name)):
+        with pytest.raises(tehl.SceneError, match="none.toml"):
+            call(tmp_path / "none.toml")
+
+
+@pytest.mark.usefixtures("taichi_cpu")
 def test_until_is_a_position(tmp_path):
     run = tehl.run(tehl.scene("gear").replace(**{"grid.nx": 32, "grid.ny": 8, "thermal.on": False, "time.steps": 4}),
                    tmp_path / "gear.zarr")

@@ -145,6 +145,18 @@ except tehl.SceneError as error:
     assert f"come too late: the laws of this process are already read; set TEHL_PLUGINS={tmp_path / 'others'} before" in text
 
 
+@pytest.mark.parametrize("call, end", [
+    ("tehl.flank(scene='my.toml', workers=0)", "workers = 0 is out of range; allowed: 1 to 1024"),
+    ("tehl.cam('cycle.csv', scene='my.toml', workers=0)", "workers = 0 is out of range; allowed: 1 to 1024"),
+    ("tehl.march('my.toml', precision='f16')", "precision = 'f16' is"),
+    ("tehl.crack([], 'my.toml')", "as tehl_taichi.simulate gives them")])
+def test_every_function_with_a_scene_sees_its_plugins(scene_file, tmp_path, call, end):
+    """Also where it is the first call of a process."""
+    (tmp_path / "cycle.csv").write_text("angle_deg,load_N_per_mm,R_mm,u_a_m_s,u_b_m_s\n0,100,10,1,2\n")
+    ok, text = in_a_process(["-c", f"import tehl_taichi as tehl\n{call}\n"], tmp_path)
+    assert ok == 1 and end in text and "too late" not in text and "'rounded' is not known" not in text, text
+
+
 @pytest.mark.slow
 def test_commands_and_their_workers_see_them(scene_file, tmp_path):
     """A sweep on two processes; without the plugin the command says which law is missing. No kernel has the hardening law."""

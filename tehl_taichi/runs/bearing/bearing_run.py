@@ -52,9 +52,9 @@ class RingCase:
 
 def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None, axial: float | None = None,
             speed: float | None = None, dimensions: dict | None = None, on: str = "inner", feature: Feature | None = None,
-            roughness: float | None = None, scene: Scene | None = None, changes: dict | None = None, steady: bool = False,
-            run: bool = True, folder: str | PathLike | None = None, workers: int | None = None, threads: int | None = None,
-            progress: Progress | None = None) -> Bearing:
+            roughness: float | None = None, scene: Scene | str | PathLike | None = None,
+            changes: dict | None = None, steady: bool = False, run: bool = True, folder: str | PathLike | None = None,
+            workers: int | None = None, threads: int | None = None, progress: Progress | None = None) -> Bearing:
     """Compute a bearing: see :func:`tehl_taichi.bearing`."""
     choice("on", on, RINGS)
     flag("run", run)

@@ -24,9 +24,9 @@ ASSUMPTION = ("each angle is a separate contact with constant load and speeds: s
 WAITING = "it has not run yet; repeat the tehl cam command with --out to resume"
 
 
-def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene | None = None, changes: dict | None = None,
-        steady: bool = False, folder: str | PathLike | None = None, workers: int | None = None, threads: int | None = None,
-        progress: Progress | None = None) -> Cam:
+def cam(table: str | PathLike, *, feature: Feature | None = None, scene: Scene | str | PathLike | None = None,
+        changes: dict | None = None, steady: bool = False, folder: str | PathLike | None = None, workers: int | None = None,
+        threads: int | None = None, progress: Progress | None = None) -> Cam:
     """Compute a cam: see :func:`tehl_taichi.cam`."""
     path = path_of("table", table)
     places = cam_table.load(path)

@@ -34,9 +34,10 @@ WAITING = "it has not run yet; repeat the tehl flank command with --out to resum
 
 
 def flank(gear: str | PathLike | GearPair = "fzg-c", *, torque: float | None = None, speed: float | None = None,
-          on: str | None = None, positions: int | None = None, at: Sequence[str | float] = (), scene: Scene | None = None,
-          changes: dict | None = None, steady: bool = False, folder: str | PathLike | None = None,
-          workers: int | None = None, threads: int | None = None, progress: Progress | None = None) -> Flank:
+          on: str | None = None, positions: int | None = None, at: Sequence[str | float] = (),
+          scene: Scene | str | PathLike | None = None, changes: dict | None = None, steady: bool = False,
+          folder: str | PathLike | None = None, workers: int | None = None, threads: int | None = None,
+          progress: Progress | None = None) -> Flank:
     """Compute a flank: see :func:`tehl_taichi.flank`."""
     found, scene = flank_source(gear).changed(torque, speed), None if scene is None else find(scene)
     changes = all_changes(changes or {}, steady)
