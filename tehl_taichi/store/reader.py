@@ -142,10 +142,10 @@ class Reader:
         store has no such entry, UnknownName if it has no such field, StoreError for a damaged file.
         """
         self._check_entry(n)
-        asked = self.stored if names is None else [names] if isinstance(names, str) else list(names)
-        for name in asked:
+        listed = self.stored if names is None else [names] if isinstance(names, str) else list(names)
+        for name in listed:
             self._check_name(name, self.stored)
-        return {name: self._values(name, n) for name in asked}
+        return {name: self._values(name, n) for name in listed}
 
     def _check_name(self, name, known):
         if not (isinstance(name, str) and name in known):

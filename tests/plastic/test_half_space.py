@@ -28,6 +28,15 @@ def test_layers_reach_where_a_smooth_contact_is_worst_and_a_bottom_far_below():
         assert found.thickness.sum() > 5e-3 and np.all(np.diff(found.thickness) > -1e-20)
 
 
+def test_depths_are_the_middles_of_the_layers_of_which_eight_at_least_are_even():
+    for spacing in (1e-7, 2e-6, 2e-5):
+        found = layers(2e-4, spacing, 1e-4)
+        ends = np.concatenate([[0.0], np.cumsum(found.thickness)])
+        assert_allclose(found.depths, (ends[1:] + ends[:-1])[: found.count] / 2, rtol=1e-12)
+        even = np.isclose(found.thickness, found.thickness[0]).sum()
+        assert even >= 8 and even * found.thickness[0] == pytest.approx(0.2 * 1e-4, rel=0.03)
+
+
 def test_layers_under_a_narrow_feature_are_those_of_a_contact_as_narrow():
     """As far down as its stress changes fast; below, they reach as deep as under the contact alone."""
     narrow, alone, small = layers(2e-4, 1e-5, 5e-5), layers(2e-4, 1e-5, 2e-4), layers(5e-5, 1e-5, 5e-5)

@@ -155,6 +155,16 @@ def test_a_surface_change_is_exact_at_its_nodes_and_cubic_along_x():
     assert_allclose(line.at(x, np.linspace(-1, 1, 3)), np.tile(heights[:, 0], (3, 1)))
 
 
+def test_half_of_a_mirrored_surface_is_the_whole():
+    """Between its rows, too, on both sides of the axis."""
+    x, y = np.arange(8) * 2e-6, np.arange(-5, 6) * 3e-6
+    heights = 1e-9 * np.exp(-((x[:, None] - 6e-6) / 5e-6) ** 2 - (y / 6e-6) ** 2)
+    whole, half = SurfaceChange("a", x, y, heights, False), SurfaceChange("a", x, y[5:], heights[:, 5:], True)
+    places = np.linspace(-11.9e-6, 11.9e-6, 83)
+    assert_allclose(half.at(x + 0.3e-6, places), whole.at(x + 0.3e-6, places), rtol=1e-9, atol=1e-16)
+    assert_allclose(whole.at(x, places), np.interp(places, y, heights[3])[:, None] * heights[:, 5] / heights[3, 5], atol=4e-11)
+
+
 def field(x, y):
     """A field whose components are linear in x, y and depth."""
     depths = np.array([2e-6, 6e-6, 12e-6])

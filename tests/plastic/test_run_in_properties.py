@@ -130,6 +130,15 @@ def test_the_height_before_is_that_of_the_feature_off_the_axis(y):
     assert (top == pytest.approx(feature.height, rel=0.02)) == (y < made_run_in.Y[-1])
 
 
+def test_the_height_after_is_that_of_what_did_not_sink():
+    scene, state = STEEL.replace(**{"feature.y": 5e-5}), made_run_in.flowed()
+    feature, body = scene.features[0], state.bodies["a"]
+    left = max(feature.height_at(along - feature.x, across - feature.y) - body.start.sinking[i, j]
+               for i, along in enumerate(body.x) for j, across in enumerate(body.y))
+    found = run_in_numbers.numbers(scene, state)
+    assert found["height_after_m"] == pytest.approx(left) and left < found["height_before_m"]
+
+
 def test_twice_the_rows_need_twice_the_memory():
     narrow, wide = (memory.needed_bytes(STEEL.replace(**{"grid.nx": 128, "grid.ny": rows})) for rows in (16, 32))
     assert wide == pytest.approx(2 * narrow, rel=0.25)
