@@ -178,6 +178,7 @@ def test_units_of_keys():
     keys = {"srr": "1", "height": "m", "speed": "m/s", "load": "N/m", "bodies.b.E": "Pa", "operation.u_a": "m/s",
             "rheology.law": "1", "feature.0.x": "m", "hertz_pressure": "Pa", "grid.nx": "1"}
     assert {key: unit(GEAR, key) for key in keys} == keys
+    assert unit(scene("ball-on-disc"), "load") == unit(scene("ball-on-disc"), "contact.load") == "N"
 
 
 def test_a_study_file(tmp_path):
