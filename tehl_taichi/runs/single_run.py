@@ -12,7 +12,7 @@ from tehl_taichi.fatigue.pressure_alone import WITHOUT, searched, why_none
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress, progress_of
 from tehl_taichi.runs.run_in_memory import run_in_bytes
-from tehl_taichi.runs.stored_run import Run
+from tehl_taichi.runs.stored_run import Run, check_steps
 from tehl_taichi.scene import Scene, zoom_room
 from tehl_taichi.store.load_scene import find
 from tehl_taichi.values.checks import flag
@@ -80,6 +80,7 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     began = time.perf_counter()
     from tehl_taichi.engine import runtime
 
+    check_steps(steps)
     runtime.check_number(threads)
     before, progress = open(path), progress_of(progress)
     path = before.path

@@ -25,6 +25,12 @@ if TYPE_CHECKING:
 MOST_STEPS = 10**7  # further ones of a run
 
 
+def check_steps(steps):
+    """Refuse a number of further steps that is none; None is allowed."""
+    if steps is not None:
+        integer("steps", steps, 1, MOST_STEPS)
+
+
 class Run:
     """A stored run; :func:`tehl_taichi.run`, :func:`tehl_taichi.open` and :func:`tehl_taichi.resume` return one.
 
@@ -304,8 +310,7 @@ class Run:
         """
         from tehl_taichi.scene.timeline import remaining_scene
 
-        if steps is not None:
-            integer("steps", steps, 1, MOST_STEPS)
+        check_steps(steps)
         if not self.finished and not steps:
             return self.scene
         found = remaining_scene(self.scene, self.store.last_step, steps)
