@@ -120,7 +120,7 @@ def test_arguments_of_a_run(tmp_path):
     run = tehl.run(LINE, tmp_path / "line.zarr")
     for wrong, words in ((lambda: run.export("csv", 3), "path = 3 is not a path"), (lambda: tehl.report(run, 3), "out = 3 is"),
                          (lambda: run.save_figures(3), "folder = 3 is not a path"),
-                         (lambda: run.rest("x"), "steps = 'x' is not a whole number"), (lambda: run.rest(0), "steps = 0 is out of"),
+                         (lambda: run.rest("x"), "steps = 'x' is not a whole"), (lambda: run.rest(0), "steps = 0 is out"),
                          (lambda: run.plot(depth="20 kg"), "'kg' is no unit of it"),
                          (lambda: run.plot(depth=1e-5), "depth = 1e-05 µm is .* did you mean 10 µm")):
         with pytest.raises(tehl.SceneError, match=words):
