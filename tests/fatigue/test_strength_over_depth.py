@@ -8,9 +8,10 @@ import pytest
 from rolling import Rolling
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import assessment
+from tehl_taichi.fatigue import assessment, local_strength
 from tehl_taichi.fatigue.search_result import LIMITS
 from tehl_taichi.fatigue.stress.histories import StressHistories
+from tehl_taichi.fatigue.stress.residual_field import ResidualField
 from tehl_taichi.fatigue.worst_point import worst_of
 from tehl_taichi.report import scene_text
 from tehl_taichi.runs.summary import limit_meaning, search_rows, summary_rows
@@ -156,3 +157,20 @@ def test_the_limit_means_a_smooth_contact_of_its_pressure(plain):
     assert "595.2 MPa in reversed bending, 383.1 MPa in torsion" in told and f"{p / 1e9:.2f}" in told
     contact = GEAR.replace(**{"fatigue.limit_of": "contact"}).fatigue
     assert "that of a contact" in limit_meaning.sentence({"hertz": {"p_Pa": p_H}, "fatigue": summary}, contact)
+
+
+def test_the_residual_stress_of_a_point_is_that_of_the_scene_and_of_the_run_in():
+    """Both along x and along y; the run-in's at the place of the point, of a field that varies with x, y and depth."""
+    scene = GEAR.replace(**{"fatigue.residual_xx": -3e8, "fatigue.residual_yy": -1e8})
+    passage = StressHistories(scene, reader := Rolling(scene, 12, 5), reader.centres)
+    x, y, z = (np.array([0.0, 1e-4]) for _ in range(3))
+    z = z + 1e-5
+    stress = np.zeros((2, 6, 2, 2))
+    stress[:, 0] = 1e12 * (x[:, None] + 2 * y + 3 * z[:, None, None])
+    stress[:, 1] = -2 * stress[:, 0]
+    point = SimpleNamespace(x=2e-5, y=5e-5, depth=4e-5)
+    assert local_strength.of_point(passage, point) == {}
+    passage.left = ResidualField(x, y, z, stress)
+    found = local_strength.of_point(passage, point)
+    there = 1e12 * (point.x + 2 * point.y + 3 * point.depth)
+    assert found == pytest.approx({"residual_xx_Pa": -3e8 + there, "residual_yy_Pa": -1e8 - 2 * there})
