@@ -80,7 +80,7 @@ def _profiles(passage, depths, histories, moment_sets, row):
 def _needed(passage, row, depths):
     """Mask (depths * x',) of the points under a row that are in statistics, or False for none (see
     :func:`tehl_taichi.fatigue.index_statistics.below`)."""
-    if passage.sought is not Sought.COUNTED:
+    if passage.sought is not Sought.COUNTED or index_statistics.samples(passage):
         return False
     return np.tile(index_statistics.under_row(index_statistics.weights(passage), row - passage.rows.start) > 0, depths.size)
 

@@ -4,6 +4,7 @@ not.
 
 import numpy as np
 
+from tehl_taichi.fatigue import sampled_rows
 from tehl_taichi.fatigue.stress.averaging import is_mirrored
 from tehl_taichi.scene.rough_surfaces import is_rough
 
@@ -69,27 +70,45 @@ def sample(counts):
 
 
 def below(passage, profiles, counts):
-    """Statistics at DEPTHS below the :func:`_counted` rows of `profiles`
-    (:class:`tehl_taichi.fatigue.depth_profile.DepthProfile`): "by_depth", and those of the depth with the largest 99th
-    percentile, at least one cell deep. Between the searched depths the stress is linear in the logarithm of the depth.
+    """Statistics at DEPTHS below some rows: "by_depth", and those of the depth with the largest 99th percentile, at least one
+    cell deep; "rows": number of these rows.
+
+    Of a rough surface with several rows these are spread evenly over it (:mod:`tehl_taichi.fatigue.sampled_rows`). Else they
+    are the :func:`_counted` ones of `profiles` (:class:`tehl_taichi.fatigue.depth_profile.DepthProfile`), between whose depths
+    the stress is linear in the logarithm of the depth.
     """
-    found = _counted(passage, profiles)
+    rungs = profiles[0].depths
+    depths = [share * passage.a for share in DEPTHS if rungs[0] <= share * passage.a <= rungs[-1]]
+    rows, Fi, each = (_sampled if samples(passage) else _of_profiles)(passage, profiles, depths, counts)
+    out = [{"depth_m": depth, **statistics(of_depth, each)} for depth, of_depth in zip(depths, Fi)]
+    seen = [one for one in out if one["depth_m"] >= SEEN * rungs[0]]
+    return {**max(seen or out, key=lambda one: one["p99"]), "rows": rows, "by_depth": out}
+
+
+def samples(passage):
+    """Whether statistics below the surface are those of rows spread evenly over it."""
+    return passage.y.size > 1 and is_rough(passage.scene)
+
+
+def _sampled(passage, profiles, depths, counts):
+    """(number of rows, indices (depths, points), weights (points,)) of a sample of the rows of a rough surface."""
+    rows = sampled_rows.spread(counts)
+    return rows.size, *sampled_rows.indices(passage, rows, depths, counts)
+
+
+def _of_profiles(passage, profiles, depths, counts):
+    """Return what :func:`_sampled` does, of the profiles under the :func:`_counted` rows."""
+    found, rungs = _counted(passage, profiles), profiles[0].depths
+    Fi = np.concatenate([profile.f for _, profile in found], axis=1) / np.array(passage.strength.limits(rungs))[:, None]
     each = np.concatenate([under_row(counts, row) for row, _ in found])
-    logs, f = np.log(profiles[0].depths), np.concatenate([profile.f for _, profile in found], axis=1)
-    f = f / np.array(passage.strength.limits(profiles[0].depths))[:, None]
-    depths = [share * passage.a for share in DEPTHS if logs[0] <= np.log(share * passage.a) <= logs[-1]]
-    out = [{"depth_m": depth, **statistics(_at(logs, f, np.log(depth)), each)} for depth in depths]
-    seen = [one for one in out if one["depth_m"] >= SEEN * profiles[0].depths[0]]
-    return {**max(seen or out, key=lambda one: one["p99"]), "by_depth": out}
+    return len(found), [_at(np.log(rungs), Fi, np.log(depth)) for depth in depths], each
 
 
 def _counted(passage, profiles):
-    """[(row, profile)] of the rows in the middle of the features, or of all rows if the surface is rough: where few features
-    pass, further rows are searched by what is worst in them, which depends on rounding.
+    """[(row, profile)] of the rows in the middle of the features; further rows are searched by what is worst in them, which
+    depends on rounding.
     """
     found = [(_row(passage, profile.worst.y), profile) for profile in profiles]
-    if is_rough(passage.scene):
-        return found
     middle = {_row(passage, f.centre_y) for f in passage.scene.features}
     return [one for one in found if one[0] in middle] or found
 
@@ -104,7 +123,7 @@ def under_row(counts, row):
 
 
 def _at(logs, f, log):
-    """f (depths, points) between two of the depths."""
+    """Values f (depths, points) between two of the depths."""
     upper = int(np.clip(np.searchsorted(logs, log), 1, logs.size - 1))
     part = (log - logs[upper - 1]) / (logs[upper] - logs[upper - 1])
     return (1 - part) * f[upper - 1] + part * f[upper]

@@ -8,7 +8,7 @@ import pytest
 from rolling import BothSides, Rolling
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import assessment, depth_profile, index_statistics
+from tehl_taichi.fatigue import assessment, depth_profile, index_statistics, sampled_rows
 from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.march.accuracy import coarse_runs
@@ -232,16 +232,56 @@ def test_a_mirrored_half_has_the_percentiles_of_the_whole():
     assert one == pytest.approx(both, rel=1e-6) and index_statistics.statistics(np.zeros(3), np.ones(3))["p99"] == 0.0
 
 
-@pytest.mark.parametrize("rough", [False, True])
-def test_below_single_features_only_their_own_rows_count(monkeypatch, rough):
-    """Further rows are searched because of what is worst in them; on rough surfaces all count."""
-    monkeypatch.setattr(index_statistics, "is_rough", lambda scene: rough)
+def test_below_single_features_only_their_own_rows_count():
+    """Further rows are searched because of what is worst in them."""
     depths, rows = np.geomspace(1e-5, 1e-3, 9), np.linspace(-2e-4, 2e-4, 5)
     profiles = [SimpleNamespace(depths=depths, f=np.full((9, 40), f), worst=SimpleNamespace(y=y)) for f, y in
                 ((8e8, rows[0]), (4e8, 0.0))]
     passage = SimpleNamespace(a=1e-3, y=rows, strength=SimpleNamespace(limits=lambda at: [4e8] * len(at)), scene=NARROW)
     found = index_statistics.below(passage, profiles, np.ones((40, 5)))
-    assert (found["points"], found["p99"]) == ((80, 2.0) if rough else (40, 1.0))
+    assert (found["points"], found["rows"], found["p99"]) == (40, 1, 1.0)
+
+
+@pytest.mark.parametrize("count", [1, 3, 8, 9, 61])
+def test_sampled_rows_are_spread_over_those_that_count(count):
+    """At most eight, in the middle of equal parts: all where there are fewer, never with more at one end."""
+    counts = np.zeros((4, count + 7))
+    counts[1:3, 5 : 5 + count] = 2.0
+    rows = sampled_rows.spread(counts) - 5
+    assert rows.size == min(count, 8) == np.unique(rows).size and rows.min() >= 0 and rows.max() < count
+    assert np.mean(rows) == pytest.approx((count - 1) / 2, abs=0.5) and np.ptp(np.diff(np.append(rows, rows[:1] + count))) <= 1
+
+
+class RoughAcross(Rolling):
+    """Pressure that is high on one row in four only, the row of the feature among them."""
+
+    def fields(self, n, names):
+        found = super().fields(n, ("pressure", "traction_x_a"))
+        crest = 1 + 0.3 * (n > 0) * (np.arange(self.y.size) % 4 == 0)
+        found = {name: field * crest for name, field in found.items()} | {"traction_y_a": 0 * found["pressure"]}
+        return {name: found[name] for name in names}
+
+
+@pytest.mark.parametrize("half", [True, False])
+def test_statistics_below_a_rough_surface_are_those_of_all_its_points(taichi_cpu, monkeypatch, half):
+    """Against a search of all points at these depths. The rows of the worst points alone have a larger median."""
+    scene = tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.surfaces": "a", "feature.width": 0.4 * 0.36216e-3})
+    reader = RoughAcross(scene, 8, 17)
+    if not half:
+        reader.y = np.concatenate([-reader.y[:0:-1], reader.y])
+    monkeypatch.setattr(index_statistics, "is_rough", lambda scene: True)
+    found = assessment.run(scene, reader, alone=False)
+    deep = found.summary["below"]["statistics"]
+    depths = [one["depth_m"] for one in deep["by_depth"]]
+    every = assessment.run(scene.replace(**{"fatigue.depths": depths}), reader, alone=False)
+    counted, stresses = every.passed > 0, every.findley_stress_at_depth[1:]
+    rows = np.flatnonzero(counted.any(axis=0))
+    assert 1 < rows.size == deep["rows"] < 8  # so few that all are searched
+    for one, field in zip(deep["by_depth"], stresses):
+        whole = index_statistics.statistics(field / scene.fatigue.endurance, every.passed)
+        assert {**one, **whole} == pytest.approx(one, rel=1e-4)
+        row = field[:, [int(np.argmin(np.abs(every.feature_frame_y)))]] / scene.fatigue.endurance
+        assert one["median"] < np.median(row[counted.any(axis=1)])
 
 
 def test_the_sample_is_spread_over_all_points():
