@@ -91,11 +91,13 @@ def _show(summary, as_json):
 
 def _rows(found, pits):
     """(quantity, value) of one side."""
+    from tehl_taichi.crack.analysis import SMALL
+
     if not found["opens"]:
         return [("no crack", found["why"])]
     rows = [("largest tension at the surface", f"{found['sigma1_surface_Pa'] / 1e6:.0f} MPa"),
             ("at x' (feature position)", f"{found['start_x_m'] * 1e6:.1f} um ({found['moment_x_m'] * 1e6:.0f} um)"),
-            ("tension reaches down to", f"{found['tension_depth_m'] * 1e6:.1f} um")]
+            (f"tension above {SMALL:.0%} of its largest value down to", f"{found['tension_depth_m'] * 1e6:.1f} um")]
     for name in ("trajectory", "path"):
         rows += [(f"{name} leans", found[name]["lean"]),
                  (f"{name}: chord at 10, 20, 40 um (pits {pits[0]:g} to {pits[1]:g})", _chords(found[name]))]

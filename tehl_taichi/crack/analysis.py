@@ -16,6 +16,7 @@ from tehl_taichi.values.digits import number_of
 DEPTHS = (10e-6, 20e-6, 40e-6)  # m, at which the chord from the mouth is measured
 FAR = 2.0                       # lengths of the crack that its trajectory is followed
 CLEAR = 0.05                    # a larger difference between the grids of a crack is said
+SMALL = 0.05                    # of the largest tension along a trajectory: less may stay near zero over a long way
 
 
 @dataclass(frozen=True)
@@ -162,9 +163,14 @@ def _chord(points, depth):
 
 
 def _tension_depth(points, tension):
-    """Depth (m) to which the trajectory is under tension at its moment."""
-    pressed = np.flatnonzero(tension <= 0)
-    return float(points[pressed[0] if pressed.size else -1].imag)
+    """Depth (m) at which the tension along the trajectory, from its largest value on, first falls to SMALL of it; the end of
+    the trajectory if it never does."""
+    top = int(np.argmax(tension))
+    low = np.flatnonzero(tension[top:] <= SMALL * tension[top])
+    if not low.size:
+        return float(points[-1].imag)
+    after = top + int(low[0])
+    return float(np.interp(-SMALL * tension[top], -tension[after - 1 : after + 1], points[after - 1 : after + 1].imag))
 
 
 def _checked(plane, path, options, E_star):

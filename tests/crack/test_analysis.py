@@ -379,6 +379,35 @@ def test_largest_numbers_of_a_crack_that_slows_down():
     assert entry["tension_depth_m"] == pytest.approx(12 * MICRO, abs=3 * MICRO), "between the depths of the table"
 
 
+def fading(scale=1.0, noise=0.0):
+    """Tension that fades with exp(-z/4 um), and noise of the stresses on both sides of zero."""
+    def field(x, z):
+        rough = np.random.default_rng(5).standard_normal((x + z).shape)
+        return scale * 1e8 * (np.exp(-z / (4 * MICRO)) + noise * rough)
+
+    return plane(field, scale * -1e6)
+
+
+@pytest.mark.parametrize("scale, noise", [(1.0, 0.0), (3.0, 0.0), (0.2, 0.0), (1.0, 1e-4), (1.0, -1e-4), (3.0, 1e-3)])
+def test_the_depth_of_tension_ends_at_a_share_of_it(scale, noise):
+    """4 um ln 20 for 5 %, whatever the load and the noise, whose zeros lie anywhere below 30 um."""
+    stresses = fading(scale, noise)
+    origin = start(stresses, "entry", -30 * MICRO)
+    depth = analysis._tension_depth(*trajectory(stresses, origin, 100 * MICRO))
+    assert depth == pytest.approx(4 * MICRO * np.log(20), rel=0.02 if abs(noise) < 1e-3 else 0.03)
+    if noise:
+        smooth = analysis._tension_depth(*trajectory(fading(scale), origin, 100 * MICRO))
+        assert depth == pytest.approx(smooth, rel=20 * abs(noise))
+
+
+@pytest.mark.parametrize("tension, depth", [((4, 2, 1, 0.6), 3), ((4, 2, 0.1, -1), 2 - 0.1 / 1.9), ((1, 4, -4, 4), 1.475),
+                                            ((4, -4, 8, 0), 3 - 0.05)])
+def test_the_depth_of_tension_counts_from_its_largest_value(tension, depth):
+    """5 % lies between two points of the trajectory, or beyond its end; points 1 um apart in depth, and 1 um to the side."""
+    found = analysis._tension_depth((1 + 1j) * MICRO * np.arange(4), 1e8 * np.array(tension, float))
+    assert found == pytest.approx(depth * MICRO)
+
+
 def test_a_crack_opens_by_the_plane_modulus_of_its_body():
     """At the mouth of a normal edge crack 1.454 times 4 sigma a/E', E' = E/(1 - nu^2) (Tada, Paris & Irwin)."""
     scene = SCENE.replace(**{"bodies.a.E": 300e9, "bodies.a.nu": 0.4})
@@ -502,7 +531,8 @@ def test_the_printed_numbers_of_a_side_are_in_their_units():
 
     rows = dict(_rows(SIDE, (18.0, 50.0)))
     assert rows == {"largest tension at the surface": "321 MPa", "at x' (feature position)": "-41.0 um (-180 um)",
-                    "tension reaches down to": "33.0 um", "trajectory leans": "with rolling", "path leans": "against rolling",
+                    "tension above 5% of its largest value down to": "33.0 um",
+                    "trajectory leans": "with rolling", "path leans": "against rolling",
                     "trajectory: chord at 10, 20, 40 um (pits 18 to 50)": "71, 62 deg",
                     "path: chord at 10, 20, 40 um (pits 18 to 50)": "54, 45, - deg",
                     "K_I up to, range of K_II at 25.0 um": "2.400, 1.70 MPa sqrt(m)",
