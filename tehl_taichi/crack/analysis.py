@@ -16,6 +16,7 @@ from tehl_taichi.values.digits import number_of
 DEPTHS = (10e-6, 20e-6, 40e-6)  # m, at which the chord from the mouth is measured
 FAR = 2.0                       # lengths of the crack that its trajectory is followed
 CLEAR = 0.05                    # a larger difference between the grids of a crack is said
+STRAIGHT = 0.0175               # across over depth: grids change trajectories by a degree, so that less is no direction
 SMALL = 0.05                    # of the largest tension along a trajectory: less may stay near zero over a long way
 
 
@@ -144,10 +145,15 @@ def _summary(plane, side, options, E_star):
 
 def _shape(points):
     """Direction in which a path leans, and its chord angles (degrees to the surface)."""
-    mouth, tip = points[0], points[-1]
     chords = {f"{depth * 1e6:g}": _chord(points, depth) for depth in DEPTHS}
-    return {"lean": "with rolling" if tip.real < mouth.real else "against rolling", "deepest_m": float(points.imag.max()),
-            "chord_deg_at_um": chords}
+    return {"lean": _lean(points[-1] - points[0]), "deepest_m": float(points.imag.max()), "chord_deg_at_um": chords}
+
+
+def _lean(way):
+    """Direction in which the way from the mouth to the tip leans."""
+    if abs(way.real) <= STRAIGHT * way.imag:
+        return "neither way"
+    return "with rolling" if way.real < 0 else "against rolling"
 
 
 def _chord(points, depth):

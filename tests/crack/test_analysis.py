@@ -408,6 +408,19 @@ def test_the_depth_of_tension_counts_from_its_largest_value(tension, depth):
     assert found == pytest.approx(depth * MICRO)
 
 
+@pytest.mark.parametrize("degrees, lean", [(0.0, "neither way"), (0.9, "neither way"), (-0.9, "neither way"),
+                                           (1.1, "against rolling"), (-1.1, "with rolling"), (80, "against rolling")])
+def test_what_goes_straight_down_leans_neither_way(degrees, lean):
+    """Rounding decided it; points at this angle from straight down."""
+    points = 1j * np.exp(-1j * np.radians(degrees)) * np.arange(4) * MICRO
+    assert analysis._shape(points)["lean"] == lean
+
+
+def test_a_crack_in_pure_tension_leans_neither_way():
+    found = follow(plane(1e8), SCENE, CrackOptions(side="entry", length=20 * MICRO)).summary["sides"]["entry"]
+    assert found["path"]["lean"] == found["trajectory"]["lean"] == "neither way"
+
+
 def test_a_crack_opens_by_the_plane_modulus_of_its_body():
     """At the mouth of a normal edge crack 1.454 times 4 sigma a/E', E' = E/(1 - nu^2) (Tada, Paris & Irwin)."""
     scene = SCENE.replace(**{"bodies.a.E": 300e9, "bodies.a.nu": 0.4})
