@@ -6,7 +6,7 @@ import made_results
 import numpy as np
 import pytest
 from made_results import fatigue
-from rolling import Rolling
+from rolling import BothSides, Rolling
 
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment
@@ -43,6 +43,17 @@ def test_the_early_moments_are_those_of_a_search_up_to_there(taichi_cpu, changes
     assert "Fi" in own and own <= set(maps)
     for name, values in maps.items():
         np.testing.assert_allclose(values, alone.maps[name][0], atol=1e-9 * np.nanmax(np.abs(values)), err_msg=name)
+
+
+def test_on_a_whole_domain_the_early_plane_is_at_the_worst_depth_of_the_early_moments(taichi_cpu):
+    """Its stresses, too; all moments are worse at another depth."""
+    reader = BothSides(GEAR, 8, 5)
+    both = assessment.run(GEAR, reader, until=-0.3, alone=False)
+    alone = assessment.run(GEAR.replace(**{"fatigue.to_x": -0.3}), reader, alone=False)
+    early = both.resolved
+    assert early.worst_depth == pytest.approx(alone.worst_depth) and early.worst_depth != pytest.approx(both.worst_depth)
+    np.testing.assert_allclose(early.findley_stress_at_worst_depth, alone.findley_stress_at_worst_depth, rtol=1e-5)
+    assert early.findley_stress_at_worst_depth.max() < 0.99 * both.findley_stress_at_worst_depth.max()
 
 
 @pytest.mark.parametrize("until", [None, -3.0, 3.0])
