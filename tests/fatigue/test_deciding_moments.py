@@ -72,6 +72,15 @@ def test_none_is_left_out_that_turns_to_the_front(taichi_cpu):
     assert set(some) == {0, 1} and list(others) == [2]
 
 
+def test_what_may_overtake_the_largest_as_it_falls_is_kept(taichi_cpu):
+    """Turned by 0.3 rad about y: a shear of 1 falls to cos 0.6 = 0.825, pull along x and pressure along z of 1.55 then have a
+    shear of 1.55 sin 0.6 = 0.875, which was 0; likewise the normal stresses of the one and the other, beside more shear."""
+    shear, pull, other = np.eye(6)[4], np.array([1, 0, -1, 0, 0, 0]), 10 * np.eye(6)[5]
+    for history, size in ((np.stack([shear, 1.55 * pull]), 2), (np.stack([-pull, 1.55 * shear, other]), 3)):
+        some, _ = chosen(history, np.array([0.0, 0.0, 1.0]), 0 * shear, 0.3)
+        assert some.size == size
+
+
 def test_what_a_turn_changes_is_the_range_of_principal_stresses(taichi_cpu):
     from tehl_taichi.engine.language import ti
     from tehl_taichi.fatigue import deciding_moments
