@@ -169,14 +169,11 @@ def _chord(points, depth):
 
 
 def _tension_depth(points, tension):
-    """Depth (m) at which the tension along the trajectory, from its largest value on, first falls to SMALL of it; the end of
-    the trajectory if it never does."""
-    top = int(np.argmax(tension))
-    low = np.flatnonzero(tension[top:] <= SMALL * tension[top])
-    if not low.size:
-        return float(points[-1].imag)
-    after = top + int(low[0])
-    return float(np.interp(-SMALL * tension[top], -tension[after - 1 : after + 1], points[after - 1 : after + 1].imag))
+    """Largest depth (m) at which the tension along the trajectory is at least SMALL of its largest value."""
+    rest, deep = tension - SMALL * tension.max(), points.imag
+    ends = np.flatnonzero(np.diff(rest >= 0))
+    between = deep[ends] + (deep[ends + 1] - deep[ends]) * rest[ends] / (rest[ends] - rest[ends + 1])
+    return float(max(deep[rest >= 0].max(), between.max(initial=0.0)))
 
 
 def _checked(plane, path, options, E_star):

@@ -400,12 +400,18 @@ def test_the_depth_of_tension_ends_at_a_share_of_it(scale, noise):
         assert depth == pytest.approx(smooth, rel=20 * abs(noise))
 
 
-@pytest.mark.parametrize("tension, depth", [((4, 2, 1, 0.6), 3), ((4, 2, 0.1, -1), 2 - 0.1 / 1.9), ((1, 4, -4, 4), 1.475),
-                                            ((4, -4, 8, 0), 3 - 0.05)])
-def test_the_depth_of_tension_counts_from_its_largest_value(tension, depth):
+@pytest.mark.parametrize("tension, depth", [((4, 2, 1, 0.6), 3), ((4, 2, 0.1, -1), 2 - 0.1 / 1.9), ((1, 4, -4, 4), 3),
+                                            ((4, -4, 8, 0), 3 - 0.05), ((1, 0, 0, 0), 0.95)])
+def test_the_depth_of_tension_is_the_largest_with_a_share_of_it(tension, depth):
     """5 % lies between two points of the trajectory, or beyond its end; points 1 um apart in depth, and 1 um to the side."""
     found = analysis._tension_depth((1 + 1j) * MICRO * np.arange(4), 1e8 * np.array(tension, float))
     assert found == pytest.approx(depth * MICRO)
+
+
+def test_the_depth_of_tension_of_a_trajectory_that_returns_is_its_largest():
+    points = np.array([0, 2j, 3 + 3j, 5 + 1j]) * MICRO
+    assert analysis._tension_depth(points, np.array([1.0, 2.0, 3.0, 4.0])) == pytest.approx(3 * MICRO)
+    assert analysis._tension_depth(points, np.array([4.0, 2.0, -2.0, 4.0])) == pytest.approx((2 + 1.8 / 4) * MICRO)
 
 
 @pytest.mark.parametrize("degrees, lean", [(0.0, "neither way"), (0.9, "neither way"), (-0.9, "neither way"),
