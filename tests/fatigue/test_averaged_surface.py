@@ -70,6 +70,27 @@ def test_the_worst_one_is_that_of_averaged_loads(monkeypatch):
         assert parts.worst.f == pytest.approx(found.worst.f, rel=1e-6) and parts.worst.x == found.worst.x, rows
 
 
+def test_all_points_whose_bound_reaches_the_worst_are_searched(monkeypatch):
+    """One by one; without such a bound only points that cannot be the worst."""
+    scene = tehl.scene("gear").replace(**ISOTHERMAL)
+    monkeypatch.setattr(averaged_surface, "AT_ONCE", 1)
+    passage, found = surface(scene)
+    whole, some = of_loads(scene, passage), np.isfinite(found.f)
+    assert found.worst.f == pytest.approx(whole.f[some].max(), rel=1e-5) and whole.f[~some & inner(found)].max() < found.worst.f
+    bound = bounds(scene, passage, found)
+    assert some[bound > found.worst.f].all() and 0 < some.sum() < 0.2 * some.size
+
+
+def bounds(scene, passage, averages):
+    """Averages of the values at points, of the points around which all are searched, else 0."""
+    f, out = layer(scene, passage, 0.0, lambda done, total: None, None).f, np.zeros(averages.f.shape)
+    for i, along in averages.parts[0]:
+        for j, across in averages.parts[1]:
+            rows = np.abs(np.arange(f.shape[1]) + j).clip(max=f.shape[1] - 1)
+            out += along * across * np.roll(f, -i, axis=0)[:, rows]
+    return np.where(inner(averages), out, 0.0)
+
+
 def test_all_points_are_searched_where_nothing_bounds_the_value(monkeypatch):
     scene = tehl.scene("gear").replace(**ISOTHERMAL)
     monkeypatch.setattr(averaged_surface, "CRITERIA", {"findley": SimpleNamespace(convex=False)})
