@@ -1,5 +1,7 @@
 """The smooth contact alone: against Hertz, against passages in which nothing changes, its error bars, what is said of it."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from rolling import Dry, Rolling
@@ -165,3 +167,16 @@ def test_a_known_load_makes_a_probable_answer_sure():
     found = {"surface": "a", "Fi_max": 1.4, "surface_angle_deg": 60.0, "contact_alone": alone}
     assert verdict.of_fatigue(found)[1].startswith("Yes: the fatigue limit is exceeded by the load alone, without any feature. "
                                                    "Around the feature: probably yes: ")
+
+
+@pytest.mark.parametrize("middle", [0, 48])
+def test_the_worst_row_of_a_fine_surface_is_found_on_either_side(monkeypatch, middle):
+    """Every third row first, then those beside the worst of them: any row may be the worst."""
+    sweep = SimpleNamespace(line=False, middle=middle, reader=SimpleNamespace(y=np.arange(97.0)))
+    for worst in range(97):
+        def values(sweep, local, rows, worst=worst):
+            return np.zeros((len(rows), 2, 6)), -abs(np.array(rows) - worst - 0.1)
+
+        monkeypatch.setattr(contact_alone, "_searched", values)
+        rows, histories, f = contact_alone._at_surface(sweep, None)
+        assert rows[int(np.argmax(f))] == worst and middle in rows and len(rows) == len(histories) == len(f) < 40
