@@ -10,7 +10,7 @@ from rolling import Dry, Rolling
 import tehl_taichi as tehl
 from tehl_taichi.fatigue import assessment, contact_alone
 from tehl_taichi.fatigue.stress.histories import StressHistories
-from tehl_taichi.fatigue.von_mises import largest, von_mises
+from tehl_taichi.fatigue.von_mises import VonMisesPeak, largest, share_of, summary, von_mises
 from tehl_taichi.report import verdict
 from tehl_taichi.runs.summary import search_rows
 from tehl_taichi.runs.summary.result_warnings import yielding
@@ -118,3 +118,13 @@ def test_it_is_printed_with_what_the_body_bears():
     row, = [row for row in search_rows.rows_of_fatigue(fatigue, {"other": {**fatigue, "von_mises": softer}})
             if row.what == "largest von Mises stress"]
     assert row.number == softer["max_Pa"] and row.where.endswith("(other)")  # that body is nearer to its yield stress
+
+
+def test_the_peak_that_is_closest_to_the_yield_stress_of_its_depth_counts():
+    """A weak core at 100 um: 1.2 GPa of 1 GPa there, 1.5 of 2 GPa at the surface."""
+    table = SimpleNamespace(has=lambda name: True)
+    strength = SimpleNamespace(table=table, yield_stress=lambda depth: 1e9 if depth > 5e-5 else 2e9)
+    peaks = [VonMisesPeak(1.5e9, 0.0, 0.0, 0.0), VonMisesPeak(1.2e9, 1e-4, 0.0, 0.0)]
+    found = summary(peaks, 1.5e9, SimpleNamespace(name="a"), strength)
+    assert (found["max_Pa"], found["depth_m"], found["yield_stress_Pa"], found["yields"]) == (1.2e9, 1e-4, 1e9, True)
+    assert share_of(strength)(1e-4) == 2.0 and share_of(SimpleNamespace(table=None))(1e-4) == 1.0
