@@ -31,10 +31,10 @@ def crossed_surfaces(shot, a, border):
 
 
 def _reason(solver, heat, report, passing):
-    double = "" if solver.levels.precision == "f64" else ", --precision f64"
     scene = solver.levels.scene
+    others = [", a smaller time.courant"] * scene.transient + [", --precision f64"] * (solver.levels.precision != "f64")
     remedy = (next(thick_film.warnings(scene), "") or not passing and domain.too_short(scene) or _on_its_floor(solver, passing)
-              or f"try a finer grid (--grid), a smaller time.courant{double}")
+              or f"try a finer grid (--grid){''.join(others)}")
     return f"{_what_failed(solver, heat, report)}; {remedy}"
 
 
@@ -47,7 +47,7 @@ def _what_failed(solver, heat, report):
     if not report.mass_error < numerics.mass_tolerance:
         return f"mass error {report.mass_error:.1e} (tolerance {numerics.mass_tolerance:.0e}){_heated(heat)}"
     if not heat:
-        return f"residual {report.residual:.1e}"
+        return "film and oil pressure at the border of the grid do not agree"
     if not heat.sound:
         return _heated(heat)[2:]
     if not np.isfinite(heat.report.change):

@@ -90,9 +90,13 @@ def _with_slip(solver, walls):
 
 
 def _through_slips(solver, parts):
+    """Solve for these parts of the slip, one after the other; if there are several, by time steps where that fails."""
     for part in parts:
+        P, H0 = solver.levels.get(fields.P), solver.H0
         solver.levels.numbers.slip(part)
         report = solve_from_table(solver)
+        if not report.converged and len(parts) > 1:
+            report = solve_in_time(solver, P, H0)
         if not report.converged:
             break
     return report

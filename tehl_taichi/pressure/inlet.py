@@ -20,7 +20,9 @@ T = T + 0.5  # X = X_border/T beyond the border
 PRESSURES = np.concatenate([[0.0], np.geomspace(1e2, 3e9, 800)])  # Pa
 MOST = 0.95  # of the reduced pressure that the oil reaches at all
 AGREES = 1e-4  # of the same: border and film, which a border changes by its share of it
-LEAST = 0.5  # of a miss that a move makes up for: thick films answer a border by up to -1.4 times its move, back and forth
+# Of a miss that a move makes up for, at least: thick films answer a border by up to -1.4 times its move, back and forth. Beside
+# gaps of less than two films they answer by more: a miss that comes back with more than SWINGS of its size halves this part
+LEAST, SWINGS = 0.5, 0.7
 
 
 @functools.lru_cache(maxsize=16)
@@ -62,7 +64,7 @@ class Inlet:
             self.border[-1, v.X < 0] = True
             self.border[0, v.X < 0] |= not v.mirrored
         self.p, self.q = reduced(v.scene.oil, v.scene.operation.temperature)
-        self.part, self.before = 1.0, None  # of the last move, and the miss before it
+        self._first()
 
     def now(self):
         """Reduced pressure (Pa) at the border nodes in the table."""
@@ -100,10 +102,16 @@ class Inlet:
         self.part, self.before = self._part(miss), miss
         return self.part
 
+    def _first(self):
+        """Forget earlier moves: part of the last one and the miss before it, and the smallest part."""
+        self.part, self.before, self.least = 1.0, None, LEAST
+
     def _part(self, miss):
         if self.before is None or not (step := miss - self.before).any():
             return self.part
-        return float(np.clip(-self.part * (self.before @ step) / (step @ step), LEAST, 1.0))
+        if miss @ self.before < -SWINGS * (self.before @ self.before):
+            self.least /= 2
+        return float(np.clip(-self.part * (self.before @ step) / (step @ step), self.least, 1.0))
 
     def miss(self):
         """Deviation (Pa) of the reduced pressure at the border from that of the oil beyond it."""
@@ -119,7 +127,7 @@ class Inlet:
     def begin(self, gap):
         """Set the border pressure for a film by formula; gap: of the dry contact."""
         film = central_film(self.levels.scene) / self.levels.scales.h
-        self.part, self.before = 1.0, None
+        self._first()
         self.put(self.without_heat(gap + film, film))
 
     def beyond(self):

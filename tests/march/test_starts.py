@@ -81,7 +81,8 @@ def test_the_reason_names_what_failed():
         return str(not_converged(solver, heat, SolveReport(residual, 0.0, mass, 3, 9, False), "the start", passing))
 
     assert "residual 1.0e-02 (tolerance 1e-06), largest at X = " in said(residual=1e-2)
-    assert "mass error 1.0e-03 (tolerance 1e-06); try a finer grid" in said(mass=1e-3)
+    assert "mass error 1.0e-03 (tolerance 1e-06); try a finer grid (grid.nx)" in said(mass=1e-3)
+    assert "time.courant" not in said(mass=1e-3)  # without a passage nothing depends on it
     heat.report.change = 3.0
     assert "temperatures still change by 3 K" in said() and "floor" not in said()
     heat.report.failed = 2
@@ -89,10 +90,22 @@ def test_the_reason_names_what_failed():
     levels.put(fields.H, levels.G[0, fields.FLOOR])
     assert "on its floor" in said() and f"grid.nx={2 * levels.scene.grid.nx} (" in said()
     levels.scene = scene("gear").replace(height=9e-6, width=1e-3)
+    levels.put(fields.H, 1.0)
+    assert ", a smaller time.courant" in said(mass=1e-3)
+    levels.put(fields.H, levels.G[0, fields.FLOOR])
     assert "a feature" not in said() and "a feature rises 9e-06 m" in said(passing=True)
     # on its floor because oil of a thick film is missing, not because it is thin
     levels.scene = scene("smooth-line").replace(**{"speed": 20.0, "hertz_pressure": 1e8, "grid.x_min": -1.2})
     assert "domain is probably too short; grid.x_min=" in said() and "floor" not in said()
+
+
+def test_a_border_that_does_not_settle_is_the_reason_where_the_equations_hold():
+    from tehl_taichi.march.failure import not_converged
+    from tehl_taichi.pressure.newton import PressureSolver, SolveReport
+
+    heat, levels = film()
+    text = str(not_converged(PressureSolver(levels, heat), None, SolveReport(6e-15, 0.0, 4e-13, 30, 9, False), "the start"))
+    assert ": film and oil pressure at the border of the grid do not agree; " in text
 
 
 @pytest.mark.parametrize("height, names", [(2e-6, False), (8e-6, True)])
@@ -329,6 +342,32 @@ def test_oil_of_40_degrees_between_surfaces_that_slip_settles():
     solution, on 64 to 256 columns. Finer grids: 1.389 um (128), 1.392 (256), 192.0 deg C."""
     found = settled(**{"temperature": 40.0, "srr": -0.5, "grid.nx": 64}).scalars
     assert found["h_c_m"] == pytest.approx(1.390e-6, rel=0.015) and found["film_max_C"] == pytest.approx(192.0, abs=1.0)
+
+
+@pytest.mark.parametrize("changes", [{"temperature": 40.0, "grid.x_max": 1.5},
+                                     {"temperature": 60.0, "hertz_pressure": 3e8, "srr": -1.0}])
+def test_a_thick_film_starts_beside_a_short_inlet(changes):
+    """The gap at the border is 1.3 films, which answers the pressure there by several times its move, back and forth."""
+    from tehl_taichi.march.accuracy.domain_error import domain_error
+    from tehl_taichi.march.steady import solve_steady
+
+    short = scene("smooth-line").replace(**{"speed": 5.0, "hertz_pressure": 6e8, "grid.x_min": -1.5, "thermal.on": False,
+                                            **changes})
+    found = solve_steady(short, Scales.of(short), 64, 0)
+    assert found.report.converged and found.work < 1500
+    assert domain_error(found.solver).gap < 1.4
+    assert not found.solver.share_load()  # the grid carries what the oil before it leaves
+
+
+def test_a_circle_starts_where_its_surfaces_slip_fast():
+    """Between a third of the slip and all of it the frozen film yields: Newton finds it by time steps only."""
+    from tehl_taichi.march.steady import solve_steady
+    from tehl_taichi.pressure import fields
+
+    sliding = scene("mtm").replace(**{"srr": 2.0, "thermal.on": False, "grid.nx": 64, "grid.ny": 16})
+    found = solve_steady(sliding, Scales.of(sliding), 64, 16)
+    numbers = found.solver.levels.numbers
+    assert found.report.converged and (numbers.G[:, fields.SHEAR] == numbers.shear).all()  # with the whole slip
 
 
 @pytest.mark.slow

@@ -39,11 +39,21 @@ def test_the_border_of_a_half_domain_is_half_of_that_of_the_whole(taichi_cpu):
 def test_a_border_whose_film_answers_in_proportion_moves_twice():
     """Aitken's part of the second move is the whole way, whatever the answer."""
     inlet, q, answer = Inlet.__new__(Inlet), np.zeros(3), np.array([4.0, 1.0, 2.0])
-    inlet.part, inlet.before = 1.0, None
+    inlet._first()
     for _ in range(2):
         miss = answer - 1.5 * q  # of the film that the pressure q leaves
         q = q + inlet._aitken(miss) * miss
     assert q == pytest.approx(answer / 1.5)
+
+
+@pytest.mark.parametrize("answer", [0.5, 1.0, 2.0, 3.0, 5.0, 9.0])
+def test_a_border_agrees_with_a_film_that_answers_by_several_times_its_move(answer):
+    """A film that follows the border by `answer` times a move, the other way: it swings for ever if moves stay large."""
+    inlet, q, moves = Inlet.__new__(Inlet), np.zeros(2), 0
+    inlet._first()
+    while np.abs(miss := np.array([1.0, 2.0]) - (1 + answer) * q).max() > 1e-4:
+        q, moves = q + inlet._aitken(miss) * miss, moves + 1
+        assert moves < 20
 
 
 @pytest.mark.parametrize("ratio", [0.25, 1.0, 3.0])
