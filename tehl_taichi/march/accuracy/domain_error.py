@@ -21,6 +21,7 @@ from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.inlet import Inlet
 from tehl_taichi.scene.domain import PASSAGE, SIDE
+from tehl_taichi.values.coded_text import Reason
 
 GRUBIN, LONG = 0.73, 0.15
 # Errors by the domain (lines, circles and ellipses from -2.5 to -8.5 a against 12.5 to 20 a, docs/decisions/02-inlet.md); q:
@@ -39,6 +40,7 @@ WARMED = 2.0  # of the rise by the heat of the oil before
 # Of the change of the film at the sides, for every number of a passage: asperities and dents with sides at 1 b err by 0.01 to
 # 0.40 of it against 2.5 b, with temperatures by up to 0.50, exits that the grid does not resolve by more (decision 4)
 SIDES = 0.5
+BEYOND = Reason("the oil beyond the domain may change it by as much as its value", "beyond")
 
 
 @dataclass(frozen=True)
@@ -158,7 +160,12 @@ def widened(errors, unknown, values, found, inlet, passing=False):
     parts = {name: {"grid": size, "domain": found.of(name, values[name], inlet, passing)} for name, size in errors.items()}
     whole = {name: None if part["grid"] is None else math.hypot(part["grid"], part["domain"]) for name, part in parts.items()}
     lost = [name for name, size in whole.items() if size is not None and _positive(name) and size >= values[name]]
-    return {**whole, **dict.fromkeys(lost)}, {**unknown, **dict.fromkeys(lost, WHOLE)}, parts
+    return {**whole, **dict.fromkeys(lost)}, {**unknown, **{name: _reason(**parts[name]) for name in lost}}, parts
+
+
+def _reason(grid, domain):
+    """Reason of a bar as large as its number, by its larger part: a finer grid leaves that by the domain."""
+    return WHOLE if grid >= domain else BEYOND
 
 
 def _positive(name):

@@ -16,7 +16,8 @@ from tehl_taichi.values.summary_values import error_of
 
 MOST_FRICTION = 0.2  # of a film: no oil is known to carry more than about 0.12 of the pressure, traction fluids included
 MOST_RIPPLE = 0.005  # of the largest pressure: a tenth of what a passing feature changes, ten times what resolved passages show
-FINER = "touch", "changes", "place", "peak", "value", "rival"  # reasons of unknown errors that a finer grid may remove
+# reasons of unknown errors that a finer grid may remove; "alone": it has a coarser one
+FINER = "touch", "changes", "place", "peak", "value", "rival", "alone"
 NO_VALUE = Option("oil without a shear limit has no finite value here; use --thermal or a limiting law (rheology.law)",
                   "oil without a shear limit has no finite value here; temperatures or a limiting law would give one")
 

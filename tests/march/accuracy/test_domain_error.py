@@ -288,7 +288,9 @@ def test_bars_hold_both_parts_and_are_none_where_either_leaves_nothing():
     whole, unknown, parts = widened(grid, {"p_max_Pa": "why"}, values, found, 90.0)
     assert whole["h_c_m"] == pytest.approx(math.hypot(1e-8, 1e-7))
     assert whole["p_max_Pa"] is None and unknown["p_max_Pa"] == "why"
-    assert whole["h_min_m"] is None and "as large as its value" in unknown["h_min_m"]
+    assert whole["h_min_m"] is None and unknown["h_min_m"].code == "value"  # which a finer grid may remove
+    beyond = widened({"h_min_m": 1e-8}, {}, {"h_min_m": 2e-7}, DomainError(thinnest=1.1), 90.0)[1]["h_min_m"]
+    assert beyond.code == "beyond" and "oil beyond the domain" in beyond  # and this not
     assert whole["friction_coefficient"] == pytest.approx(math.hypot(1e-4, 0.3 * 0.02 + 1e-3))
     assert whole["film_max_C"] == pytest.approx(math.hypot(1.0, 2 * 0.1 * 50))
     assert parts["h_c_m"] == {"grid": 1e-8, "domain": 1e-7}

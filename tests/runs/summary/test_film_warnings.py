@@ -204,7 +204,7 @@ def test_many_numbers_without_an_error_are_one_short_sentence():
     assert line.startswith("the error of Fi_max at the surface of the smooth contact is not known")
 
 
-@pytest.mark.parametrize("code", ["touch", "changes", "place", "peak", "value", "rival"])
+@pytest.mark.parametrize("code", ["touch", "changes", "place", "peak", "value", "rival", "alone"])
 def test_a_reason_that_a_finer_grid_removes_names_it_and_a_window_for_numbers_of_the_passage(code, monkeypatch):
     monkeypatch.setattr(zoom_need, "work", lambda store, factor: 1.3 * factor)
     reason = Reason("made up", code)
@@ -217,7 +217,7 @@ def test_a_reason_that_a_finer_grid_removes_names_it_and_a_window_for_numbers_of
         assert "--" not in without_options(said)
 
 
-@pytest.mark.parametrize("code", ["shallow", "coarse", "other", "unsettled", ""])
+@pytest.mark.parametrize("code", ["shallow", "coarse", "other", "unsettled", "beyond", ""])
 def test_a_reason_that_no_grid_removes_names_none(code):
     summary = {"transient": {"unknown": {"h_min_m": Reason("made up", code)}}}
     assert [str(one) for one in judge_of_results.unknown_errors(SimpleNamespace(scene=gear()), summary)] == [
