@@ -43,6 +43,22 @@ def followed(old, lengths, cells, start=0.0):
     return (frame["speed"] * third_order(rest) - levels.get(fields.QOLD)) / frame["rate"], frame
 
 
+def test_the_couette_difference_is_exact_for_parabolas_in_every_inner_column():
+    x = np.arange(9.0)
+    assert third_order(x**2)[1:-1] == pytest.approx(2 * x[1:-1]) and not third_order(x**2)[[0, -1]].any()
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+def test_steps_of_unequal_length_keep_their_order():
+    """Parts of a step: the last one before the present one has its own length, not that of the one before."""
+    levels = columns(40)
+    storage = Storage(levels)
+    for dT in (0.5, 0.25, 0.125):
+        storage.accept(dT * levels.dx)
+    storage.begin(0.1 * levels.dx)
+    assert storage.frame["rate"] == pytest.approx(bdf(0.1, 0.125)[0])
+
+
 @pytest.mark.usefixtures("taichi_cpu")
 @pytest.mark.parametrize("cells, left", [(1.0, 0.5), (2.0, 0.25)])
 def test_each_whole_cell_takes_out_half_of_the_shortest_wave(cells, left):
