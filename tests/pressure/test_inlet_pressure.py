@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 import tehl_taichi as tehl
-from tehl_taichi.pressure.inlet import Inlet
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.inlet import Inlet, far
 from tehl_taichi.pressure.levels import Levels
+from tehl_taichi.scene import hertz
 from tehl_taichi.scene.scales import Scales
 
 X, STEP = -8.0, 0.1  # a: thick gaps, whose bodies are rigid
@@ -68,3 +70,17 @@ def test_beyond_rigid_paraboloids_the_oil_obeys_the_reynolds_equation(taichi_cpu
     balance = (flow_balance(np.array([of_before[j], q[j], of_after[j]]), films, STEP)
                + flow_balance(q[rows], H[rows], y[1] - y[0]))
     assert balance == pytest.approx((films[2] - films[0]) / (2 * STEP), rel=0.03)
+
+
+def test_the_gap_beyond_the_border_of_a_line_is_that_of_hertz():
+    places, films, _ = far(-4.0, hertz.line_gap(4.0), 1.0)
+    near = places > -50.0
+    assert films[near] == pytest.approx(np.array([hertz.line_gap(-x) for x in places[near]]), abs=0.01)
+
+
+def test_hot_oil_at_the_border_is_thinner_beyond_it(taichi_cpu):
+    scene = tehl.scene("smooth-line").replace(**{"grid.nx": 32})
+    levels = Levels(scene, Scales.of(scene), 32, 0)
+    levels.put(fields.P, 0.0)
+    levels.put(fields.LE, -1.0)  # ln of its viscosity over that of the inlet
+    assert Inlet(levels).warmth() == pytest.approx(np.exp(-1.0))
