@@ -567,7 +567,7 @@ def test_a_grid_is_looked_at_once_and_only_where_it_converged(monkeypatch, conve
     monkeypatch.setattr(start, "solve_steady", steady)
     monkeypatch.setattr(start, "not_converged", lambda *_: NotConverged("stopped"))
     monkeypatch.setattr(start.snapshot, "take", lambda *_: seen.append(SimpleNamespace(scalars={}, x=np.zeros(3))) or seen[-1])
-    monkeypatch.setattr(start.snapshot, "state_of", lambda *_: {"P": 1.0})
+    monkeypatch.setattr(start.snapshot, "first_state", lambda *_: {"P": 1.0})
     monkeypatch.setattr(start.readings, "steady", lambda *_: {})
     monkeypatch.setattr(start, "bars", lambda values: ({}, {}))
     monkeypatch.setattr(start, "domain_error", lambda *_: start.DomainError())

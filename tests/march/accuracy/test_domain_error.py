@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from advice import advised
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.march.accuracy.domain_error import DomainError, widened
@@ -326,7 +327,7 @@ def test_an_outlet_before_the_rupture_is_reported_with_one_behind_it(tmp_path):
     summary = tehl.run(near, tmp_path / "near.zarr").summary
     said = summary["warnings"][summary["warning_codes"].index("outlet")]
     assert "grid.x_max = 1.5 a" in said
-    x_max, nx = float(said.partition("grid.x_max=")[2].split()[0]), int(said.partition("--grid ")[2].split()[0])
+    x_max, nx = advised("x_max", said), int(advised("nx", said))
     found = tehl.run(near.replace(**{"grid.x_max": x_max, "grid.nx": nx}), tmp_path / "far.zarr").summary
     assert "outlet" not in found["warning_codes"] and nx / (x_max + 4.5) >= 32
     assert "outlet_slope" in summary["steady"] and "outlet_slope" not in found["steady"]
@@ -346,7 +347,7 @@ def test_a_domain_that_ends_too_near_is_told_with_options_that_end_that(tmp_path
     assert summary["domain"] == {"x_min_a": -2.5, "x_max_a": 2.0, "y_max_b": 1.0, "auto": False}
     parts = summary["steady"]["error_parts"]["h_c_m"]
     assert summary["steady"]["error"]["h_c_m"] == pytest.approx(math.hypot(parts["grid"], parts["domain"]))
-    x_min, nx = float(said.partition("grid.x_min=")[2].split()[0]), int(said.partition("--grid ")[2].split()[0])
+    x_min, nx = advised("x_min", said), int(advised("nx", said))
     wide = tehl.run(short.replace(**{"grid.x_min": x_min, "grid.nx": nx}), tmp_path / "wide.zarr").summary
     assert "domain" not in wide["warning_codes"] and nx / (2.0 - x_min) >= 256 / 4.5
     starved = tehl.run(short.replace(**STARVED), tmp_path / "starved.zarr").summary

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from advice import advised
 
 from tehl_taichi.march.accuracy.domain_error import SIDES, DomainError
 from tehl_taichi.march.accuracy.side_change import side_change
@@ -108,7 +109,7 @@ def test_near_sides_are_a_warning_with_a_domain_that_suffices(tmp_path):
     summary = tehl.run(near, tmp_path / "near.zarr").summary
     said, = (text for text, code in zip(summary["warnings"], summary["warning_codes"]) if code == "sides")
     assert "grid.y_max = 0.4 b" in said and summary["domain"]["side_change"] > 0.02
-    y_max, ny = float(said.partition("grid.y_max=")[2].split()[0]), int(said.partition("--grid 64x")[2].split()[0])
+    y_max, ny = advised("y_max", said), int(advised("ny", said))
     assert ny / y_max >= 8 / 0.4 and y_max < 2
     wide = tehl.run(near.replace(**{"grid.y_max": y_max, "grid.ny": ny}), tmp_path / "wide.zarr").summary
     assert "sides" not in wide["warning_codes"] and 0 < wide["domain"]["side_change"] < 0.02
