@@ -21,7 +21,7 @@ PRESSURES = np.concatenate([[0.0], np.geomspace(1e2, 3e9, 800)])  # Pa
 MOST = 0.95  # of the reduced pressure that the oil reaches at all
 AGREES = 1e-4  # of the same: border and film, which a border changes by its share of it
 # Of a miss that a move makes up for, at least: thick films answer a border by up to -1.4 times its move, back and forth. Beside
-# gaps of less than two films they answer by more: a miss that comes back with more than SWINGS of its size halves this part
+# gaps of less than two films they answer by more: misses that come back in turn with more than SWINGS of their size quarter it
 LEAST, SWINGS = 0.5, 0.7
 
 
@@ -103,14 +103,15 @@ class Inlet:
         return self.part
 
     def _first(self):
-        """Forget earlier moves: part of the last one and the miss before it, and the smallest part."""
-        self.part, self.before, self.least = 1.0, None, LEAST
+        """Forget earlier moves: part of the last one and the miss before it, smallest part, misses that came back in turn."""
+        self.part, self.before, self.least, self.swings = 1.0, None, LEAST, 0
 
     def _part(self, miss):
         if self.before is None or not (step := miss - self.before).any():
             return self.part
-        if miss @ self.before < -SWINGS * (self.before @ self.before):
-            self.least /= 2
+        self.swings = self.swings + 1 if miss @ self.before < -SWINGS * (self.before @ self.before) else 0
+        if self.swings > 1:
+            self.least /= 4
         return float(np.clip(-self.part * (self.before @ step) / (step @ step), self.least, 1.0))
 
     def miss(self):
