@@ -17,6 +17,9 @@ SETTLED = 0.05  # K
 FLUTTER = 0.7
 BLOCKS, USUAL = 40, 16  # at most; 8 to 12 are usual
 LONGEST_RUN = 8  # blocks that are averaged
+# Blocks without progress after which it will not settle, and what is progress. Scenes that settle made progress within four
+# blocks, those that do not jump by as much (2 to 300 K) in the fortieth block as in the tenth
+STUCK, PROGRESS = 8, 0.95
 
 
 def time_step(scene, scales, dx):
@@ -44,18 +47,23 @@ def find_steady(levels, heat, solve, T=None):
     first, later = (STRIDE, 1) if ratio < SLOW else (SLOW_STRIDE, SLOW_STRIDE // 2)
     cell = max(heat.dt, levels.dx * levels.scales.a / max(speeds))  # s; shorter steps would settle for less
     steps, dt = math.ceil(TRANSITS * levels.nx * ratio / first), first * cell
-    means, blocks = [heat.T], 0
-    for _ in range(BLOCKS):
+    means, changes = [heat.T], []
+    while len(changes) < BLOCKS and not _stuck(changes):
         means = [_march(heat, steps, dt), *means[: 2 * LONGEST_RUN - 1]]
-        change = remaining_change(means, levels.get(fields.P) > LIGHT)
-        report, blocks = solve(), blocks + 1
+        changes.append(remaining_change(means, levels.get(fields.P) > LIGHT))
+        report = solve()
         steps, dt = _whole_cells(levels.nx / BLOCK * (1 if ratio < SLOW else ratio) / later, later / ratio), later * cell
-        if not report.converged or change < SETTLED and heat.sound:
+        if not report.converged or changes[-1] < SETTLED and heat.sound:
             break
     else:
-        report.converged, heat.report.change = False, change
+        report.converged, heat.report.change = False, changes[-1]
     heat.bodies.warm_resting()
-    return report, blocks > USUAL
+    return report, len(changes) > USUAL
+
+
+def _stuck(changes):
+    """Whether none of the last STUCK changes is smaller than all before, by PROGRESS."""
+    return len(changes) > STUCK and min(changes[-STUCK:]) > PROGRESS * min(changes[:-STUCK])
 
 
 def remaining_change(means, loaded):

@@ -13,7 +13,7 @@ from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march.alternating_start import find_steady, time_step
 from tehl_taichi.march.feature_gap import smooth_with
 from tehl_taichi.march.flooded_border import between_blocks, border_of, iterate_border, share_load
-from tehl_taichi.march.isothermal_start import from_nothing, put, solve_from_table, solve_in_time
+from tehl_taichi.march.isothermal_start import first_converged, from_nothing, put, solve_from_table, solve_in_time
 from tehl_taichi.march.pseudo_transient import check, march_to_rest
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.isothermal import OneTemperature
@@ -106,11 +106,7 @@ def _from_coarser(solver, P, H0):
     """Solve from the coarser grid's state; by time steps if Newton fails, as for a film too thin for the coarser grid."""
     P = refine(P)  # the border's, too
     put(solver, P, H0)
-    for way in (solve_from_table, lambda each: solve_in_time(each, P, H0), from_nothing):
-        report = way(solver)
-        if report.converged:
-            break
-    return report
+    return first_converged(solver, (solve_from_table, lambda each: solve_in_time(each, P, H0), from_nothing))
 
 
 def refine(P):

@@ -629,3 +629,38 @@ def test_stiff_oil_marches_on_a_coarse_grid_and_goes_on_from_its_temperatures(mo
     assert not found.unsettled and found.scalars["residual"] < 1e-6 and found.scalars["mass_error"] < 1e-6
     assert found.scalars["h_c_m"] == pytest.approx(1.8886e-6, rel=2e-3)
     assert found.scalars["film_max_C"] == pytest.approx(330.8, abs=1.0)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 0.999, 0.85])
+def test_blocks_that_jump_without_progress_end_early(monkeypatch, ratio):
+    """A ball on a disc, mtm at SRR 1, jumps by 10 to 20 K from block to block; 40 of them took a minute."""
+    from tehl_taichi.march import alternating_start
+    from tehl_taichi.pressure.newton import SolveReport
+
+    (heat, levels), done = film(), []
+    heat.start()
+    monkeypatch.setattr(alternating_start, "_march", lambda *_: heat.T)
+    monkeypatch.setattr(alternating_start, "remaining_change", lambda *_: done.append(20 * ratio ** len(done)) or done[-1])
+    report, troubled = alternating_start.find_steady(levels, heat, lambda: SolveReport(0.0, 0.0, 0.0, 1, 1, True))
+    assert report.converged == (ratio == 0.85) and (report.converged or heat.report.change == done[-1])
+    assert (len(done) < alternating_start.BLOCKS / 4) == (not report.converged)
+    assert troubled == (len(done) > alternating_start.USUAL)
+
+
+def test_a_pressure_that_newton_does_not_find_again_comes_by_time_steps(monkeypatch):
+    """From the Hertz pressure at other speeds it takes ten times as long (mtm at SRR 1: 95 of 105 s)."""
+    from dataclasses import replace
+
+    from tehl_taichi.march import isothermal_start, steady
+    from tehl_taichi.pressure import fields
+    from tehl_taichi.scene.scales import Scales
+
+    line = scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False})
+    solver = steady.solve_steady(line, Scales.of(line), 64, 0).solver
+    film_before, P = solver.levels.get(fields.H), solver.levels.get(fields.P)
+    isothermal_start.put(solver, 0.97 * P, solver.H0 + 0.01)
+    solve = isothermal_start.solve_from_table
+    monkeypatch.setattr(isothermal_start, "solve_from_table", lambda *args: replace(solve(*args), converged=False))
+    monkeypatch.setattr(isothermal_start, "_through_speeds", lambda _: pytest.fail("started from the Hertz pressure"))
+    assert isothermal_start.solve_again(solver).converged
+    assert solver.levels.get(fields.H) == pytest.approx(film_before, rel=3e-4)
