@@ -166,11 +166,12 @@ class StressHistories:
         """(HalfSpaceStress, function of the thermal stress or None) at a depth (m) below the surface."""
         return self.operator(depth), self.below(depth).at(depth) if self.scene.has_thermal_stress else None
 
-    def below(self, depth):
-        """The ThermalBelow for depths from `depth` (m) on. The last one is used again if it reaches up to there, since a new
-        one transforms every temperature field."""
+    def below(self, depth, make=None):
+        """The ThermalBelow for depths from `depth` (m) on, or what make(passage, depth) returns. The last one is used again if
+        it reaches up to there, since a new one transforms every temperature field.
+        """
         if self.last_below is None or self.last_below.shallowest > depth:
-            self.last_below = self.heat(ThermalBelow, depth)
+            self.last_below = make(self, depth) if make else self.heat(ThermalBelow, depth)
         return self.last_below
 
     def heat(self, kind, *more):

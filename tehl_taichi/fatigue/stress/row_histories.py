@@ -132,7 +132,7 @@ def _heat(passage, depths, deep, rows, out, notify):
     deep: numbers of the depths below the surface; notify: called with the number of depths done.
     """
     first = min(depths[n] for n in deep)
-    thermal = _windowed_heat().below(passage, first) if has_window(passage.reader) else passage.below(first)
+    thermal = passage.below(first, _windowed_heat().below if has_window(passage.reader) else None)
     with pool(passage.nodes) as workers:
         for done, (n, found) in enumerate(zip(deep, workers.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):
             for kind, stresses in enumerate(found):

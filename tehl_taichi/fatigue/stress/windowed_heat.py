@@ -33,10 +33,10 @@ class WindowedHeat:
     def below(cls, passage, shallowest):
         """Make the thermal stress below the surface, from the depth `shallowest` (m) on, for :meth:`rows`."""
         kind = functools.partial(ThermalBelow, shallowest=shallowest)
-        return cls(passage, kind, functools.partial(kind, lead=0.0, weak=WEAK))
+        return cls(passage, kind, functools.partial(kind, lead=0.0, weak=WEAK), shallowest)
 
-    def __init__(self, passage, kind, of_change):
-        self.passage, self.reader = passage, passage.reader
+    def __init__(self, passage, kind, of_change, shallowest=0.0):
+        self.passage, self.reader, self.shallowest = passage, passage.reader, shallowest
         self.kind, self.nodes = kind, RunNodes(passage, np.zeros(0, int))
         self.entries = {int(tick): entry for entry, tick in enumerate(passage.ticks)}
         changes = (WindowChange.of(passage, window, of_change) for window in self.reader.windows)
