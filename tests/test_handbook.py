@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import tomllib
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -189,6 +190,28 @@ def test_lines_of_text_are_not_longer_than_132_letters(page):
 def test_every_page_stands_in_the_navigation():
     named = re.findall(r": (\w+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.M)
     assert sorted(named) == [page.name for page in PAGES]
+
+
+JUDGED = re.compile(r"^\| (?!worse body)(.*) \| \*\*(follows|does not follow|not decided)\*\* \|", re.M)
+WORDS = {1: "one", 10: "ten"}
+
+
+def test_the_count_of_statements_is_that_of_the_tables():
+    """Rows with a window, which come later, replace those of the whole passage without one."""
+    page = (ROOT / "docs" / "conclusions.md").read_text(encoding="utf-8").replace("\u2212", "-")
+    count = Counter(dict(JUDGED.findall(page)).values())
+    follow, against, open_ = (WORDS.get(count[one], str(count[one])) for one in ("follows", "does not follow", "not decided"))
+    counted = f"Of {count.total()} statements about the body with the feature {follow} follow, {against} do not follow and {open_} is"
+    assert counted in (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
+    assert f"**Not decided**, {count['not decided']} of the {count.total()} statements" in page
+
+
+@pytest.mark.parametrize("short, title, whole", [("README.md", "Validation", "docs/validation.md"),
+                                                 ("docs/validation.md", "Coverage of the error bars", "docs/performance.md")])
+def test_numbers_of_a_short_form_are_those_of_the_page_that_it_sums_up(short, title, whole):
+    section = re.search(rf"^## {title}\n(.*?)^## ", (ROOT / short).read_text(encoding="utf-8"), re.M | re.S)[1]
+    numbers, page = re.findall(r"(?<![\w.])\d+(?:\.\d+|e-\d+)(?: %)?", section), (ROOT / whole).read_text(encoding="utf-8")
+    assert len(numbers) > 5 and [one for one in numbers if one not in page] == []
 
 
 @pytest.mark.parametrize("text", ["some words\n* a list", "some words\n| a | b |", "words\n1. first"])

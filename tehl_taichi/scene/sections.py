@@ -194,8 +194,8 @@ class Rheology(_RHEOLOGY):
 class Thermal:
     """Energy equation; without it the film has the inlet temperature.
 
-    The error of nine nodes is 0.01 %, of seven 0.1 %, also for the largest temperature of the profile through the nodes. One
-    round (a lagged temperature) takes half the time and changes the film under an asperity by 0.3 %.
+    Seven nodes change the film under an asperity by 0.14 % and the largest temperature by 0.08 %. One round (a lagged temperature)
+    takes a quarter less time and changes that film by 0.2 %.
 
     Examples
     --------
