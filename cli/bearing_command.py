@@ -16,7 +16,7 @@ from tehl_cli.stdout import print_json, put
 
 @sharing(2, loads, contacts)
 def bearing(
-    which: str = typer.Argument(..., metavar="DESIGNATION", help="designation (6206), a TOML file, or any name with own "
+    which: str = typer.Argument(..., metavar="designation", help="designation (6206), a TOML file, or any name with own "
                                                                  "dimensions"),
     context: typer.Context = None,
     ball_diameter: Optional[float] = number("diameter of a ball, m"),
@@ -38,8 +38,8 @@ def bearing(
 
 @sharing(2, loads, contacts)
 def roller(
-    which: str = typer.Argument("rollers", metavar="[DESIGNATION]", help="designation (209-roller), a TOML file, or any name "
-                                                                         "with own dimensions"),
+    which: str = typer.Argument("rollers", metavar="designation", help="designation (209-roller), a TOML file, or any name "
+                                                                       "with own dimensions"),
     context: typer.Context = None,
     roller_diameter: Optional[float] = number("diameter of a roller at half its length, m"),
     rollers: Optional[int] = typer.Option(None, help="number of rollers"),

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import typer
+from tehl_cli.amount import amount, metres
 from tehl_cli.stdout import put
 
 
@@ -31,8 +32,7 @@ def export(
 def _point(text):
     from tehl_taichi.errors import SceneError
 
-    try:
-        x, y = map(float, text.split(","))
-    except ValueError:
-        raise SceneError(f"--point {text!r} must be two numbers in m, separated by a comma, as -37e-6,0") from None
-    return x, y
+    parts = [amount(part) for part in text.split(",")]
+    if len(parts) != 2:
+        raise SceneError(f"--point {text!r} must be two numbers in m, separated by a comma, as -37e-6,0 or -37um,0")
+    return tuple(metres("--point", part) for part in parts)

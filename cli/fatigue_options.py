@@ -32,18 +32,18 @@ def _options(
     depths: Annotated[Optional[str], typer.Option(help="depths to search: auto (critical depth under the feature), none, or a "
                                                        "list in m for all points, for example 50e-6,100um")] = None,
     surfaces: Annotated[Optional[str], typer.Option(help="bodies to search: both, a or b")] = None,
-    from_x: Annotated[Optional[float], typer.Option(help="use only moments with the feature after this position, in "
-                                                         "half-widths a")] = None,
-    to_x: Annotated[Optional[float], typer.Option(help="use only moments with the feature before this position, in "
-                                                       "half-widths a")] = None,
+    from_x: Annotated[Optional[float], also_number("use only moments with the feature after this position, in half-widths "
+                                                   "a")] = None,
+    to_x: Annotated[Optional[float], also_number("use only moments with the feature before this position, in half-widths "
+                                                 "a")] = None,
     thermal_stress: Annotated[Optional[bool], typer.Option("--thermal-stress/--no-thermal-stress", help="include thermal "
                                                                                                         "stress (default: if "
                                                                                                         "temperatures were "
                                                                                                         "computed)")] = None,
-    length: Annotated[Optional[float], typer.Option(help="length over which stresses are averaged for a second index, m (0: "
-                                                         "none)")] = None,
-    residual_xx: Annotated[Optional[float], typer.Option(help="constant residual stress along x, Pa")] = None,
-    residual_yy: Annotated[Optional[float], typer.Option(help="constant residual stress along y, Pa")] = None,
+    length: Annotated[Optional[float], also_number("length over which stresses are averaged for a second index, m (0: "
+                                                   "none)")] = None,
+    residual_xx: Annotated[Optional[float], also_number("constant residual stress along x, Pa")] = None,
+    residual_yy: Annotated[Optional[float], also_number("constant residual stress along y, Pa")] = None,
 ):
     """Options as parameters for typer."""
 

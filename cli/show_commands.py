@@ -200,8 +200,8 @@ def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the
          format: usual.Format = "png", dpi: usual.Dpi = 160, width: usual.Width = 17.0, force: usual.Force = False,
          at: Optional[float] = typer.Option(None, help="run: position of the (first) feature to draw, in half-widths a "
                                                        "(default: -0.8, 0, 0.8 for curves, 0 for maps)"),
-         depth: Optional[float] = typer.Option(None, help="run: depth of a second fatigue map, µm below the surface, among "
-                                                          "those searched (default: the critical one)"),
+         depth: Optional[float] = number("run: depth of a second fatigue map, µm below the surface, among those searched "
+                                         "(default: the critical one)"),
          interference: Optional[str] = typer.Option(None, help="run: also draw the interference colours of the film: chromatic "
                                                                "(white light) or monochromatic"),
          refractive_index: Optional[float] = typer.Option(None, help="refractive index of the oil at p = 0, for "

@@ -86,7 +86,7 @@ def list_table(title, columns, rows, whole=False):
 # scalar in the store -> column, factor, format
 HISTORY = (("step", "step", 1, ".0f"), ("p_max_Pa", "p_max GPa", 1e-9, ".4f"), ("h_min_m", "h_min um", 1e6, ".4f"),
            ("residual", "residual", 1, ".0e"), ("load_error", "load", 1, ".0e"), ("mass_error", "mass", 1, ".0e"),
-           ("newton", "newton", 1, ".0f"), ("cycles", "cycles", 1, ".0f"))
+           ("newton", "Newton", 1, ".0f"), ("cycles", "Krylov", 1, ".0f"))
 
 
 def history_table(scalar, entries):

@@ -58,13 +58,11 @@ class ResidualStress:
 
 
 def read(text):
-    """Read the value of `--residual`: a number in Pa, or the name of a CSV file. Raises SceneError."""
-    try:
-        return float(text)
-    except ValueError:
-        pass
+    """Read the value of `--residual`: a number in Pa, text of one with a unit, or the name of a CSV file. Raises SceneError."""
     path = Path(text)
     if not os.path.isfile(path):
+        if number := units.split(text):
+            return text if number[1] else float(text)
         raise SceneError(f"--residual {text!r} is neither a stress in Pa nor a file")
     try:
         return _rows(rows_of(COMMENT.sub("", path.read_text(encoding="utf-8-sig"))))

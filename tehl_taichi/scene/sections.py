@@ -194,8 +194,8 @@ class Rheology(_RHEOLOGY):
 class Thermal:
     """Energy equation; without it the film has the inlet temperature.
 
-    Seven nodes change the film under an asperity by 0.14 % and the largest temperature by 0.08 %. One round (a lagged temperature)
-    takes a quarter less time and changes that film by 0.2 %.
+    Seven nodes change the film under an asperity by 0.14 % and the largest temperature by 0.08 %. One round (a lagged
+    temperature) takes a quarter less time and changes that film by 0.2 %.
 
     Examples
     --------

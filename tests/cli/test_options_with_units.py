@@ -1,8 +1,10 @@
 """Options of commands take numbers with a unit."""
 
 import json
+import re
 
 import pytest
+import typer.main
 from tehl_cli.main import app
 from typer.testing import CliRunner
 
@@ -16,6 +18,52 @@ def refusal(command):
     done = typed(command)
     assert done.exit_code != 0
     return str(done.exception)
+
+
+QUANTITY = re.compile(r"(?<![\w-])(m|µm|N|N m|Pa|m/s|1/min|deg C|degrees|half-widths a)(?![\w-])")  # in the help of an option
+PLACES = {"at"}  # of figures and tables: numbers in half-widths a, which have no other unit
+
+
+def test_every_option_of_a_quantity_takes_a_unit():
+    """As the page of the keys says; text stays text until the quantity is known."""
+    bare = [f"{command} --{option.name}" for command, found in typer.main.get_command(app).commands.items()
+            for option in found.params if option.name not in PLACES and option.bare_type() == "float" and not option.metavar
+            and QUANTITY.search(option.help or "")]
+    assert bare == []
+
+
+def _kept(taken):
+    def command(store: str, **constants):
+        taken.update(constants)
+    return command
+
+
+@pytest.mark.parametrize("options", [{"residual_xx": "-0.2GPa", "residual_yy": "-200 N/mm2", "length": "20um"},
+                                     {"from_x": "-0.5a", "to_x": "0.5 a"}])
+def test_constants_of_a_search_with_units(options):
+    from tehl_cli.fatigue_options import with_fatigue_options
+
+    from tehl_taichi.fatigue.overrides import changed
+    from tehl_taichi.scene import scene
+
+    taken, one = {}, typer.Typer(add_completion=False)
+    one.command()(with_fatigue_options(_kept(taken)))
+    bare = {"residual_xx": -2e8, "residual_yy": -2e8, "length": 2e-5, "from_x": -0.5, "to_x": 0.5}
+    given = [word for name, text in options.items() for word in (f"--{name.replace('_', '-')}", text)]
+    assert CliRunner().invoke(one, ["a.zarr", *given]).exit_code == 0
+    assert changed(scene(), taken).fatigue == changed(scene(), {name: bare[name] for name in options}).fatigue
+
+
+def test_a_point_and_a_residual_stress_with_units(tmp_path, monkeypatch):
+    from tehl_cli.export_command import _point
+
+    from tehl_taichi.crack.residual_stress import ResidualStress, read
+
+    assert _point("-37um,0.01 mm") == pytest.approx((-37e-6, 1e-5), rel=1e-12)
+    assert ResidualStress(read("-100MPa")).stress == ResidualStress(read("-100e6")).stress == [-1e8]
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "3.csv").write_text("0, -5e7\n1e-4, 0\n")  # a file, although it reads like a number with a unit
+    assert ResidualStress(read("3.csv")).stress.tolist() == [-5e7, 0.0]
 
 
 def test_a_run_with_units():
