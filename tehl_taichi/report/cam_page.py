@@ -1,15 +1,12 @@
 """Page of a cam, from its folder: thinnest film and largest index over the cycle."""
 
-import numpy as np
-
-from tehl_taichi.report import place_sections, place_verdict, position_pages
+from tehl_taichi.report import place_plots, place_sections, place_verdict, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
-from tehl_taichi.report.number_text import sentence_case, unit_spelled
-from tehl_taichi.report.plots import colour, line, rings, stack
+from tehl_taichi.report.number_text import unit_spelled
 from tehl_taichi.runs import place_warnings
 from tehl_taichi.runs.cam import cam_columns, cam_figure
 from tehl_taichi.runs.cam.stored_cam import Cam
-from tehl_taichi.runs.flank.flank_figure import JUDGED
+from tehl_taichi.runs.flank.place_panels import LAST, panels
 from tehl_taichi.values.coded_text import without_options
 
 
@@ -70,14 +67,8 @@ def _thinnest(cam):
 
 def figures(cam):
     """Figures of the panels with values."""
-    return [stack(f"cam-{n}", f"{sentence_case(label)}.", cam_figure.ANGLE, [(label, [
-        _line(name, x.tolist(), y.tolist(), factor, colour(m)) for m, (name, (x, y, _)) in enumerate(lines.items())], {})],
-        height=330) for n, (label, factor, lines) in enumerate(cam_figure.panels(cam))]
-
-
-def _line(name, x, y, factor, shade):
-    y = [None if np.isnan(value) else value * factor for value in y]
-    return rings(x, y, name, shade) if name == JUDGED else line(x, y, name, shade, mode="lines+markers")
+    return [place_plots.figure(f"cam-{n}", cam_figure.ANGLE, panel)
+            for n, panel in enumerate(panels(cam, cam_figure.points)[:LAST])]
 
 
 def warnings(cam, spelled=without_options):

@@ -1,14 +1,14 @@
 """Page of a flank, from its folder: the position where a crack would start."""
 
 from tehl_taichi.fatigue.pressure_alone import why_none
-from tehl_taichi.report import place_sections, place_verdict, position_pages
+from tehl_taichi.report import place_plots, place_sections, place_verdict, position_pages
 from tehl_taichi.report.document import Answer, Page, Section, facts, figure_block, sentences, table
-from tehl_taichi.report.number_text import sentence_case, unit_spelled
-from tehl_taichi.report.plots import colour, line, rings, stack
+from tehl_taichi.report.number_text import unit_spelled
 from tehl_taichi.runs import place_warnings
 from tehl_taichi.runs.flank import specific_film
-from tehl_taichi.runs.flank.flank_columns import plotted_value, tables
-from tehl_taichi.runs.flank.flank_figure import JUDGED, PANELS
+from tehl_taichi.runs.flank.flank_columns import tables
+from tehl_taichi.runs.flank.flank_figure import points
+from tehl_taichi.runs.flank.place_panels import panels
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.scene.gear_pair import GearPair
 from tehl_taichi.values.coded_text import without_options
@@ -101,16 +101,13 @@ def _of_films(flank, doubts):
 
 def figures(flank):
     """Figures of film, pressure, temperature, index, friction and slip over the flank, if available."""
-    found = ((title, _lines(flank, lines, factor)) for title, factor, lines in PANELS)
-    return [_figure(flank, n, title, lines) for n, (title, lines) in enumerate(found) if lines]
+    return [_figure(flank, n, panel) for n, panel in enumerate(panels(flank, points))]
 
 
-def _figure(flank, n, title, lines):
+def _figure(flank, n, panel):
     """One of these figures, with the points A to E."""
     letters = ", dotted: the points of the path of contact" if flank.points else ""
-    once = "" if n else f"; dedendum left of the pitch point{letters}"
-    made = stack(f"flank-{n}", f"{sentence_case(title)}{once}.", ALONG,
-                 [(title, lines, {})], height=330)
+    made = place_plots.figure(f"flank-{n}", ALONG, panel, "" if n else f"; dedendum left of the pitch point{letters}")
     made.layout["shapes"] = [_mark(x * 1e3) for x in flank.points.values()]
     made.layout["annotations"] = [{"text": name, "x": x * 1e3, "xref": "x", "yref": "paper", "y": 1, "yanchor": "bottom",
                                    "showarrow": False} for name, x in flank.points.items()]
@@ -121,32 +118,6 @@ def _figure(flank, n, title, lines):
 def _mark(x):
     return {"type": "line", "xref": "x", "yref": "paper", "x0": x, "x1": x, "y0": 0, "y1": 1,
             "line": {"color": GREY, "width": 1, "dash": "dot"}}
-
-
-def _lines(flank, lines, factor):
-    """Lines of a panel that have values."""
-    out: list[dict] = []
-    for name, what in lines.items():
-        x, y = _series(flank, what)
-        if x:
-            y = [value if value is None else value * factor for value in y]
-            x = [value * 1e3 for value in x]
-            out.append(rings(x, y, name, colour(len(out))) if name == JUDGED else
-                       line(x, y, name, colour(len(out)), mode="lines+markers"))
-    return out
-
-
-def _series(flank, what):
-    """(x_pl, values) of the positions with this value; None at a load jump breaks the line."""
-    x: list[float | None] = []
-    y: list[float | None] = []
-    for at, p_H, summary in flank.rows:
-        value, _ = plotted_value(at, p_H, summary, what)
-        if value is not None and x and x[-1] == at.x_pl:
-            x, y = [*x, at.x_pl], [*y, None]
-        if value is not None:
-            x, y = [*x, at.x_pl], [*y, value]
-    return x, y
 
 
 def gears(flank):

@@ -7,7 +7,7 @@ import pytest
 from tehl_taichi.runs.cam import cam_columns
 from tehl_taichi.runs.cam.cam_table import CamPosition
 from tehl_taichi.runs.flank import flank_columns
-from tehl_taichi.runs.flank.flank_figure import PANELS
+from tehl_taichi.runs.flank.place_panels import PANELS
 from tehl_taichi.runs.flank.positions import Position
 
 FACTORS = {"mm": 1e3, "um": 1e6, "µm": 1e6, "GPa": 1e-9, "N/mm": 1e-3, "%": 100}  # of printed units, from SI
