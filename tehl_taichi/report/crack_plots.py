@@ -60,7 +60,7 @@ def _map(summary, shown):
     """Map of the largest tension of the passage, with trajectories, cracks and the band of the pits."""
     x, depth, tension = (np.array(shown[key]) for key in ("x", "depth", "tension"))
     marked = [one for n, (name, side) in enumerate(shown["sides"].items())
-              for one in (*_band(name, side, summary["pit_angles_deg"], n == 0), *_lines(name, side, n))]
+              for one in (*_band(side, summary["pit_angles_deg"], n == 0), *_lines(name, side, n))]
     caption = (f"Section of body {summary.get('surface', 'a')}: largest tension of the passage, σ₁ trajectories (dashed), "
                "crack paths; grey: the pits of the thesis.")
     figure = field_map("cracks", caption, x * 1e6, depth * 1e6, tension / 1e6, TENSION, "MPa", along(summary),
@@ -69,7 +69,7 @@ def _map(summary, shown):
     return figure
 
 
-def _band(name, side, pits, in_legend):
+def _band(side, pits, in_legend):
     """Band of the pits, which lean with rolling from the mouth."""
     mouth, band = 1e6 * side["path"][0][0], 1e6 * BAND
     ends = band * np.tan(np.radians(pits))

@@ -129,14 +129,6 @@ class Reader:
         self._check_entry(n)
         return float(self.series["feature_x"][n])
 
-    def displacement(self, surface):
-        """Displacement (m) of surface "a" or "b" since X = 0, one number per stored entry; nan without a passage."""
-        name = f"displacement_{surface}_m"
-        if name in self.series:
-            return self.scalar(name)
-        pace = next(s.pace for s in self.scene.surfaces if s.name == surface)  # stores before 0.9, all features on one
-        return pace * self.scalar("feature_x")
-
     def fields(self, n: int, names: Iterable[str] | None = None) -> dict[str, np.ndarray]:
         """{name: (nx+1, ny+1) array} of entry n; names: a name or several, default all stored fields. Raises SceneError if the
         store has no such entry, UnknownName if it has no such field, StoreError for a damaged file.

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from small_stores import SMALL, store
+from small_stores import store
 
 from tehl_taichi.errors import SceneError, UnknownName
 from tehl_taichi.store.store import Store
@@ -38,13 +38,3 @@ def test_a_single_name_is_a_list_of_one(saved):
 
 def test_entries_may_be_numbers_of_numpy(saved):
     assert saved.fields(np.int64(2))["film"][0, 0] == 3.5 and saved.feature_x(np.uint8(2)) == 2e-5
-
-
-def test_displacements_of_older_stores_follow_from_the_speeds(tmp_path):
-    """Before 0.9 only the way of the first feature was stored: that of its surface, which the other one passes."""
-    old = Store.open(store(tmp_path / "old.zarr", description=SMALL.replace(srr=-0.4)).path)
-    for body in "ab":
-        old.series.pop(f"displacement_{body}_m")
-    speeds = old.scene.operation
-    np.testing.assert_allclose(old.displacement("a"), old.scalar("feature_x"), rtol=1e-12)
-    np.testing.assert_allclose(old.displacement("b"), old.scalar("feature_x") * speeds.u_b / speeds.u_a, rtol=1e-12)

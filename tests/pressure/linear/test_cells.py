@@ -56,10 +56,15 @@ def test_a_solution_has_the_residual_that_was_asked_for(problem):
 
 def test_lines_by_cyclic_reduction(problem):
     """Of all levels with lines, against the factors of the solver by rows; the preconditioner of both is the same."""
+    from tehl_taichi.engine.language import ti
     from tehl_taichi.engine.simd import W
     from tehl_taichi.pressure import fields
     from tehl_taichi.pressure.linear import line_solver
-    from tehl_taichi.pressure.linear.cells.solver import line_solutions
+    from tehl_taichi.pressure.linear.cells import lines
+
+    @ti.kernel
+    def line_solutions(F: ti.template()):
+        lines.solve(F.J, F.lines)
 
     by_rows, cells, (rows, _), precision = problem
     v, lanes = by_rows.levels, []

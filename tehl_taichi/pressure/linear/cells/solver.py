@@ -80,12 +80,6 @@ def invert(F: ti.template()):
 
 
 @ti.kernel
-def line_solutions(F: ti.template()):
-    """Solve all lines for SOL, with RES as right-hand side."""
-    lines.solve(F.J, F.lines)
-
-
-@ti.kernel
 def precondition(F: ti.template(), G: Table, N: Table, parts: Table):
     """Apply the preconditioner: COR of the finest level from RES, and the partial sums of its load."""
     for l in ti.static(range(len(F.levels) - 1)):
