@@ -10,7 +10,7 @@ from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import Live, say
 from tehl_cli.missing_results import refuse_missing
 from tehl_cli.scene_options import changes_of
-from tehl_cli.stdout import print_json, put
+from tehl_cli.stdout import print_json
 
 
 def cam(
@@ -53,20 +53,10 @@ def cam(
 
 
 def print_cam(found):
-    """Print the tables of a cam, its answer, the reasons of angles without a result, its warnings, and its path."""
-    from tehl_cli.tables import list_table, warning_lines
+    """Print a cam."""
+    from tehl_cli.tables import print_places
 
     from tehl_taichi.report import cam_page
     from tehl_taichi.runs.cam.cam_columns import tables
 
-    put(found.title)
-    for title, (heads, lines) in tables(found.rows).items():
-        list_table(title, heads, lines, whole=True)
-    answer = cam_page.answer(found)
-    for sentence in (f"{answer.question} {answer.headline}", *filter(None, answer.sentences), *cam_page.limits(found)):
-        put(sentence)
-    put(f"assumed: {found.record['assumption']}")
-    for at, reason in found.failed:
-        put(f"no result: {at.words}: {reason}")
-    warning_lines(cam_page.warnings(found, str))
-    put(f"stores, cam.csv, cam.json: {found.folder}")
+    print_places(found, tables(found.rows), cam_page.answer(found))

@@ -10,7 +10,7 @@ from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import Live, say
 from tehl_cli.missing_results import refuse_missing
 from tehl_cli.scene_options import changes_of, check_rows
-from tehl_cli.stdout import print_json, put
+from tehl_cli.stdout import print_json
 
 
 def flank(
@@ -82,22 +82,11 @@ def _place(text):
 
 
 def print_flank(found):
-    """Print the tables of a flank, its answer, its warnings, the reasons of missing results, and its path."""
-    from tehl_cli.tables import list_table, warning_lines
+    """Print a flank."""
+    from tehl_cli.tables import print_places
 
     from tehl_taichi.report import flank_page
     from tehl_taichi.runs.flank.flank_columns import tables
 
-    put(found.title)
-    for title, (heads, lines) in tables(found.rows).items():
-        list_table(title, heads, lines, whole=True)
-    answer = flank_page.answer(found)
-    put(f"{answer.question} {answer.headline}")
-    for sentence in (*answer.sentences, *flank_page.limits(found), *flank_page.no_film_words(found)):
-        put(sentence)
-    put(f"assumed: {found.record['assumption']}")
-    put(f"load: {found.record['load_sharing']}")
-    for at, reason in found.failed:
-        put(f"no result: {at.point} (x_pl = {at.x_pl * 1e3:.3f} mm): {reason}")
-    warning_lines(flank_page.warnings(found, str))
-    put(f"stores, flank.csv, flank.json: {found.folder}")
+    print_places(found, tables(found.rows), flank_page.answer(found), flank_page.no_film_words(found),
+                 [f"load: {found.record['load_sharing']}"])

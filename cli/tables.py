@@ -55,6 +55,25 @@ def warning_lines(sentences):
         put(f"warning: {sentence}")
 
 
+def print_places(found, tables, answer, more=(), assumed=()):
+    """Print the tables of a flank or a cam, its answer, its assumptions, positions without a result, warnings, and its path.
+
+    more, assumed: further sentences after the answer and after the assumption.
+    """
+    from tehl_taichi.report import place_page
+
+    put(found.title)
+    for title, (heads, lines) in tables.items():
+        list_table(title, heads, lines, whole=True)
+    for sentence in (f"{answer.question} {answer.headline}", *filter(None, answer.sentences), *place_page.limits(found), *more,
+                     f"assumed: {found.record['assumption']}", *assumed):
+        put(sentence)
+    for at, reason in found.failed:
+        put(f"no result: {at.full}: {reason}")
+    warning_lines(place_page.warnings(found, str))
+    put(f"stores, {found.KIND}.csv, {found.KIND}.json: {found.folder}")
+
+
 def print_wrapped(sentence):
     """Print a sentence within the width of the terminal, with further lines indented."""
     import shutil

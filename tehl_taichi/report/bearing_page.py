@@ -37,7 +37,7 @@ def of(folder):
                                  for title, rows in bearing_table.tables(found).items()),
                                sentences(place_sections.passages(_results(found), lambda ring: f"the {ring} ring")))),
         Section("Elements", (table(heads, rows),)),
-        Section("Not converged", (sentences([f"{ring} ring: {reason}" for ring, reason in found.failed.items()]),)),
+        Section("Without a result", (sentences([f"{ring} ring: {reason}" for ring, reason in found.failed.items()]),)),
         Section("Bearing", (facts(_dimensions(found)), sentences(_sources(found)))),
         Section("Warnings", (sentences(bearing_table.warnings(found)),)),
         Section("Provenance", (facts(place_sections.provenance(

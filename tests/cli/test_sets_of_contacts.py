@@ -57,7 +57,7 @@ def test_rings_stand_under_their_heads(tmp_path):
 def test_a_position_without_a_result_is_named_in_millimetres(tmp_path):
     found = here("show", made_results.flank(tmp_path / "f"))
     at, _ = tehl.open(tmp_path / "f").failed[0]
-    assert at.x_pl > 5e-3 and f"no result: E (x_pl = {at.x_pl * 1e3:.3f} mm): step 7 failed" in found.stdout
+    assert at.x_pl > 5e-3 and f"no result: E, x_pl = {at.x_pl * 1e3:.3f} mm: step 7 failed" in found.stdout
 
 
 def test_errors_of_traction_and_studies_are_in_the_unit_of_their_number():

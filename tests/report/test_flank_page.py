@@ -7,7 +7,7 @@ from tehl_cli.main import app
 from typer.testing import CliRunner
 
 import tehl_taichi as tehl
-from tehl_taichi.report import flank_page
+from tehl_taichi.report import flank_page, place_page
 from tehl_taichi.runs.flank.stored_flank import Flank
 from tehl_taichi.runs.summary import limit_meaning
 
@@ -38,7 +38,7 @@ def test_the_smooth_contact_of_the_limit_is_that_of_the_critical_position(tmp_pa
     folder, search = made_results.flank(tmp_path / "f"), made_results.fatigue(1.4, None)
     search["contact_alone"]["error"] = {"Fi_max": 0.01}
     store = tehl.open(made_results.run(folder / "1.zarr", search=search)).store
-    meaning, = [one for one in flank_page.limits(Flank.open(folder)) if "has Fi = 1 at about" in one]
+    meaning, = [one for one in place_page.limits(Flank.open(folder)) if "has Fi = 1 at about" in one]
     assert "; a smooth contact like that at A, x_pl = -9.502 mm has Fi = 1 at about" in meaning
     assert "a smooth contact like this one has" in limit_meaning.sentence(store.summary, store.scene.fatigue)
 

@@ -52,9 +52,9 @@ def test_the_section_of_a_crack_is_drawn_in_micrometres_and_megapascals(monkeypa
 def test_a_flank_names_the_largest_index_first(tmp_path):
     import made_results
 
-    from tehl_taichi.report import flank_page, place_verdict
+    from tehl_taichi.report import place_page, place_verdict
 
-    found = flank_page.judged_places(tehl.open(made_results.flank(tmp_path)))
+    found = place_page.judged_places(tehl.open(made_results.flank(tmp_path)))
     assert [place.Fi for place in found] == [1.4, 0.7] and "at A" in found[0].where and "at C" in found[1].where
     assert place_verdict.worst(found) is found[0]
 

@@ -41,6 +41,8 @@ class CamPosition:
         """Text with the angle."""
         return f"{self.angle:g} deg"
 
+    short = full = words
+
     @property
     def u_m(self):
         """Entrainment speed; a contact that moves in the opposite direction is a mirror image."""

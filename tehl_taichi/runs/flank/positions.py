@@ -49,6 +49,16 @@ class Position:
         return f"x_pl = {self.x_pl * 1e3:.4g} mm"
 
     @property
+    def short(self):
+        """Its point, else its coordinate."""
+        return self.point or f"{self.x_pl * 1e3:.3g} mm"
+
+    @property
+    def full(self):
+        """Its point and its coordinate."""
+        return f"{self.point}{', ' * bool(self.point)}x_pl = {self.x_pl * 1e3:.3f} mm"
+
+    @property
     def srr(self):
         """Slip over mean speed; exactly 0 at the pitch point."""
         return self.slip / self.u_m

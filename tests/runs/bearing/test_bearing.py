@@ -188,7 +188,7 @@ def test_a_ring_without_a_result_is_named(tmp_path, monkeypatch):
     monkeypatch.setattr(case, "run_case", work)
     found = tehl.bearing("6205", **DUTY, folder=tmp_path / "b", workers=1)
     assert found.failed == {"inner": "made up"}
-    assert "Not converged" in [section.title for section in bearing_page.of(found.folder).shown]
+    assert "Without a result" in [section.title for section in bearing_page.of(found.folder).shown]
 
 
 @pytest.mark.parametrize("options, used", [({}, 1), ({"steady": True}, None), ({"workers": 2}, 2), ({"threads": 1}, None)])

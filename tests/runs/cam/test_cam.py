@@ -11,7 +11,7 @@ from fake_cases import position
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import SceneError, StoreError
-from tehl_taichi.report import cam_page
+from tehl_taichi.report import cam_page, place_page
 from tehl_taichi.runs.cam import cam_columns, cam_figure, cam_table
 from tehl_taichi.runs.open_results import kind
 from tehl_taichi.runs.sweep import case
@@ -83,8 +83,8 @@ def test_figure_and_page_follow_the_angle(cycle):
     assert list(x) == [-20, 0, 20, 40, 60] and np.isnan(y[1]) and y[2] == pytest.approx(0.2)
     page = cam_page.of(cycle.folder)
     assert page.answer.headline == "The smallest film is 0.0600 ± 0.0010 µm, at -20 deg."
-    assert page.answer.doubts[1].startswith("3 of 5 angles have no result") and "cam-0" in page.figures
-    assert cam_page.warnings(cycle) == ["-20 deg, 20 deg: thick film"]
+    assert page.answer.doubts[0].startswith("3 of 5 angles have no result") and "cam-0" in page.figures
+    assert place_page.warnings(cycle) == ["-20 deg, 20 deg: thick film"]
     assert page.answer.doubts[2:] == ("Number of warnings, listed below: 1.",)
     drawn = [line.lines[0].get_data() for line in axes[0].containers]
     for (x, y), trace in zip(drawn, page.figures["cam-0"].traces, strict=True):
