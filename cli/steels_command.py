@@ -3,7 +3,7 @@
 
 def steels():
     """List the named steels with their numbers and sources."""
-    from tehl_cli.tables import list_table
+    from tehl_cli.tables import list_table, print_wrapped
 
     from tehl_taichi.scene.named_steels import STEELS
 
@@ -12,4 +12,4 @@ def steels():
     list_table("named steels (--set bodies.a.material=NAME)",
                ("name", "E GPa", "nu", "k W/mK", "kg/m3", "J/kgK", "alpha 1/K"), rows)
     for name, steel in STEELS.items():
-        print(f"{name}: {steel.says}. {steel.source}")
+        print_wrapped(f"{name}: {steel.says}; {steel.source}")

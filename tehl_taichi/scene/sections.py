@@ -129,7 +129,7 @@ class Operation:
     """
 
     u_m: float = quantity(8.5, "m/s", "mean speed (u_a + u_b)/2", 1e-6, 1e3, common=(1e-4, 200.0))
-    srr: float = quantity(-0.12, "", "slip (u_a - u_b)/u_m; negative: surface a is the slower one", -2.0, 2.0)
+    srr: float = quantity(-0.12, "", "slide-roll ratio (u_a - u_b)/u_m; negative: surface a is the slower one", -2.0, 2.0)
     temperature: float = quantity(90.0, "deg C", "temperature of oil and bodies at the inlet", -50.0, 300.0)
 
     def __post_init__(self):

@@ -48,5 +48,12 @@ def test_unknown_steels_are_refused_with_the_nearest(tmp_path):
 
 
 def test_the_command_lists_numbers_and_sources():
-    told = CliRunner().invoke(app, ["steels"]).stdout
+    told = " ".join(CliRunner().invoke(app, ["steels"]).stdout.split())
     assert all(name in told and steel.source in told for name, steel in STEELS.items()) and "208" in told
+
+
+@pytest.mark.parametrize("command", ["scenes", "oils", "steels", "laws"])
+def test_lists_stay_within_the_width_of_the_terminal(command, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")
+    lines = CliRunner().invoke(app, [command]).stdout.splitlines()
+    assert len(lines) > 5 and [line for line in lines if len(line.rstrip()) > 100] == []
