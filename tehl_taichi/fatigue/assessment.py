@@ -196,7 +196,8 @@ def _depth_numbers(passage, below, counts):
     if not below.profiles:
         return {}
     depths = below.profiles[0].depths
-    statistics = {} if passage.sought is Sought.WORST else {"statistics": _statistics_below(below, counts, passage)}
+    some = passage.sought is Sought.WORST or passage.boxed  # statistics need all points
+    statistics = {} if some else {"statistics": _statistics_below(below, counts, passage)}
     return {"searched_m": [float(depths[0]), float(depths[-1])], **statistics}
 
 
@@ -223,7 +224,7 @@ def _statistics_below(below, counts, passage):
 
     "plane": statistics of the depth that was searched at all its points, if one was.
     """
-    found = index_statistics.below(passage, below.profiles, counts)
+    found = index_statistics.below(passage, below.profiles[0].depths, counts)
     if below.plane:
         found["plane"] = {"depth_m": below.plane.depth,
                           **_statistics(below.plane, counts, passage.strength.at(below.plane.depth).endurance)}

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.fatigue import findley, index_statistics, von_mises
-from tehl_taichi.fatigue.sought import Sought
+from tehl_taichi.fatigue import findley, von_mises
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import WorstPoint
 from tehl_taichi.values.interpolation import lagrange
@@ -70,35 +69,26 @@ def _profiles(passage, depths, histories, moment_sets, row):
     first = all_[moment_sets[0]]
     for moments in moment_sets:
         some, fewer = histories[:, :, moments], np.isin(all_[moments], first).all()
-        needed = False if found else _needed(passage, row, depths)
-        searched = _searched(passage, depths, some, known if fewer else None, needed)
+        searched = _searched(passage, depths, some, known if fewer else None)
         known = known if found else searched
         found.append(_profile(passage, depths, some, searched[0].reshape(some.shape[:2]), row))
     return found
 
 
-def _needed(passage, row, depths):
-    """Mask (depths * x',) of the points under a row that are in statistics, or False for none (see
-    :func:`tehl_taichi.fatigue.index_statistics.below`)."""
-    if passage.sought is not Sought.COUNTED or index_statistics.samples(passage):
-        return False
-    return np.tile(index_statistics.under_row(index_statistics.weights(passage), row - passage.rows.start) > 0, depths.size)
-
-
-def _searched(passage, depths, histories, known, needed):
-    """The result of :func:`_of_planes` for the rungs; known, needed: as there."""
+def _searched(passage, depths, histories, known):
+    """The result of :func:`_of_planes` for the rungs; known: as there."""
     # the worst point has the largest f only if all depths have one limit
     worst = passage.sought.brief and len(set(passage.strength.shares(depths))) == 1
-    return _of_planes(passage, depths, histories, known=known, worst=worst, needed=needed)
+    return _of_planes(passage, depths, histories, known=known, worst=worst)
 
 
-def _of_planes(passage, depths, histories, known=None, worst=False, needed=False):
+def _of_planes(passage, depths, histories, known=None, worst=False):
     """(f, normals) of histories (depths, x', moments, 6) Pa, each (depths * x', ...): one search if all depths have one kappa,
-    else one per depth. known, worst, needed: see :func:`tehl_taichi.fatigue.findley.search`."""
+    else one per depth. known, worst: see :func:`tehl_taichi.fatigue.findley.search`."""
     kappas, criterion = passage.strength.kappas(depths), passage.scene.fatigue.criterion
     each, points = histories.shape[1], histories.reshape(-1, *histories.shape[2:])
     if len(set(kappas)) == 1:
-        return findley.search(points, kappas[0], criterion=criterion, known=known, worst=worst, needed=needed)
+        return findley.search(points, kappas[0], criterion=criterion, known=known, worst=worst)
     parts = [slice(n * each, (n + 1) * each) for n in range(len(kappas))]
     found = [findley.search(points[part], kappa, criterion=criterion, known=known and [values[part] for values in known])
              for part, kappa in zip(parts, kappas)]

@@ -69,61 +69,29 @@ def sample(counts):
     return out.reshape(counts.shape)
 
 
-def below(passage, profiles, counts):
+def below(passage, rungs, counts):
     """Statistics at DEPTHS below some rows: "by_depth", and those of the depth with the largest 99th percentile, at least one
     cell deep; "rows": number of these rows.
 
-    Of a rough surface with several rows these are spread evenly over it (:mod:`tehl_taichi.fatigue.sampled_rows`). Else they
-    are the :func:`_counted` ones of `profiles` (:class:`tehl_taichi.fatigue.depth_profile.DepthProfile`), between whose depths
-    the stress is linear in the logarithm of the depth.
+    The stresses are computed at these depths (:func:`tehl_taichi.fatigue.sampled_rows.indices`). rungs: (n,) m, depths of the
+    search, which bound them.
     """
-    rungs = profiles[0].depths
     depths = [share * passage.a for share in DEPTHS if rungs[0] <= share * passage.a <= rungs[-1]]
-    rows, Fi, each = (_sampled if samples(passage) else _of_profiles)(passage, profiles, depths, counts)
+    rows = _rows(passage, counts)
+    Fi, each = sampled_rows.indices(passage, rows, depths, counts)
     out = [{"depth_m": depth, **statistics(of_depth, each)} for depth, of_depth in zip(depths, Fi)]
     seen = [one for one in out if one["depth_m"] >= SEEN * rungs[0]]
-    return {**max(seen or out, key=lambda one: one["p99"]), "rows": rows, "by_depth": out}
+    return {**max(seen or out, key=lambda one: one["p99"]), "rows": len(rows), "by_depth": out}
 
 
-def samples(passage):
-    """Whether statistics below the surface are those of rows spread evenly over it."""
-    return passage.y.size > 1 and is_rough(passage.scene)
-
-
-def _sampled(passage, profiles, depths, counts):
-    """(number of rows, indices (depths, points), weights (points,)) of a sample of the rows of a rough surface."""
-    rows = sampled_rows.spread(counts)
-    return rows.size, *sampled_rows.indices(passage, rows, depths, counts)
-
-
-def _of_profiles(passage, profiles, depths, counts):
-    """Return what :func:`_sampled` does, of the profiles under the :func:`_counted` rows."""
-    found, rungs = _counted(passage, profiles), profiles[0].depths
-    Fi = np.concatenate([profile.f for _, profile in found], axis=1) / np.array(passage.strength.limits(rungs))[:, None]
-    each = np.concatenate([under_row(counts, row) for row, _ in found])
-    return len(found), [_at(np.log(rungs), Fi, np.log(depth)) for depth in depths], each
-
-
-def _counted(passage, profiles):
-    """[(row, profile)] of the rows in the middle of the features; further rows are searched by what is worst in them, which
-    depends on rounding.
+def _rows(passage, counts):
+    """Numbers of the searched rows in the middle of the features; of a rough surface, and beside features that pass no row
+    there, of rows spread evenly over it. Other rows are searched by what is worst in them, which depends on rounding.
     """
-    found = [(_row(passage, profile.worst.y), profile) for profile in profiles]
-    middle = {_row(passage, f.centre_y) for f in passage.scene.features}
-    return [one for one in found if one[0] in middle] or found
+    middle = dict.fromkeys(_row(passage, f.centre_y) for f in passage.scene.features)
+    own = [] if is_rough(passage.scene) else [row for row in middle if counts[:, row].any()]
+    return np.array(own or sampled_rows.spread(counts))
 
 
 def _row(passage, y):
     return int(np.argmin(np.abs(passage.y - y)))
-
-
-def under_row(counts, row):
-    """Weights (x',) of the points under a row: those of the row, 1 for all points where no feature passes."""
-    return counts[:, row] if counts[:, row].any() else np.ones(len(counts))
-
-
-def _at(logs, f, log):
-    """Values f (depths, points) between two of the depths."""
-    upper = int(np.clip(np.searchsorted(logs, log), 1, logs.size - 1))
-    part = (log - logs[upper - 1]) / (logs[upper] - logs[upper - 1])
-    return (1 - part) * f[upper - 1] + part * f[upper]

@@ -8,7 +8,7 @@ import pytest
 from rolling import BothSides, Rolling
 
 import tehl_taichi as tehl
-from tehl_taichi.fatigue import assessment, depth_profile, index_statistics, sampled_rows
+from tehl_taichi.fatigue import assessment, index_statistics, sampled_rows
 from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.march.accuracy import coarse_runs
@@ -90,13 +90,13 @@ def test_a_sparing_search_has_all_numbers_with_bars(taichi_cpu):
 
 
 @pytest.mark.parametrize("cell, chosen", [(0.03, 0.05), (0.01, 0.02), (0.6, 0.5)])
-def test_the_worst_depth_is_one_that_a_coarser_grid_sees(cell, chosen):
+def test_the_worst_depth_is_one_that_a_coarser_grid_sees(monkeypatch, cell, chosen):
     """Under an index that falls with depth, the first of a cell at least; all depths stay listed."""
-    depths = np.geomspace(0.5 * cell, 1.0, 12) * 1e-3
-    profile = SimpleNamespace(depths=depths, f=2e5 / depths[:, None] ** 1.0 * np.ones(40), worst=SimpleNamespace(y=0.0))
-    strength = SimpleNamespace(limits=lambda depths: [4e8] * len(depths))
-    passage = SimpleNamespace(a=1e-3, y=np.zeros(1), strength=strength, scene=NARROW)
-    found = index_statistics.below(passage, [profile], np.ones((40, 1)))
+    rungs = np.geomspace(0.5 * cell, 1.0, 12) * 1e-3
+    monkeypatch.setattr(sampled_rows, "indices", lambda passage, rows, depths, counts: (
+        5e-4 / np.array(depths)[:, None] * np.ones(40), np.ones(40)))
+    passage = SimpleNamespace(a=1e-3, y=np.zeros(1), scene=NARROW)
+    found = index_statistics.below(passage, rungs, np.ones((40, 1)))
     assert found["depth_m"] == pytest.approx(chosen * 1e-3)
     assert max(one["p99"] for one in found["by_depth"]) >= found["p99"] and len(found["by_depth"]) > (chosen < 0.5)
 
@@ -232,14 +232,13 @@ def test_a_mirrored_half_has_the_percentiles_of_the_whole():
     assert one == pytest.approx(both, rel=1e-6) and index_statistics.statistics(np.zeros(3), np.ones(3))["p99"] == 0.0
 
 
-def test_below_single_features_only_their_own_rows_count():
-    """Further rows are searched because of what is worst in them."""
-    depths, rows = np.geomspace(1e-5, 1e-3, 9), np.linspace(-2e-4, 2e-4, 5)
-    profiles = [SimpleNamespace(depths=depths, f=np.full((9, 40), f), worst=SimpleNamespace(y=y)) for f, y in
-                ((8e8, rows[0]), (4e8, 0.0))]
-    passage = SimpleNamespace(a=1e-3, y=rows, strength=SimpleNamespace(limits=lambda at: [4e8] * len(at)), scene=NARROW)
-    found = index_statistics.below(passage, profiles, np.ones((40, 5)))
-    assert (found["points"], found["rows"], found["p99"]) == (40, 1, 1.0)
+@pytest.mark.parametrize("passed, chosen", [([2, 3], [2]), ([0, 1, 4], [0, 1, 4])])
+def test_below_single_features_only_their_own_rows_count(passed, chosen):
+    """Further rows are searched because of what is worst in them; a feature between the rows passes those beside it."""
+    counts = np.zeros((40, 5))
+    counts[:, passed] = 1.0
+    passage = SimpleNamespace(y=np.linspace(-2e-4, 2e-4, 5), scene=NARROW)
+    assert list(index_statistics._rows(passage, counts)) == chosen
 
 
 @pytest.mark.parametrize("count", [1, 3, 8, 9, 61])
@@ -262,56 +261,57 @@ class RoughAcross(Rolling):
         return {name: found[name] for name in names}
 
 
+def every_point(scene, reader, depths):
+    """([{y: statistics of the points under this row}], [statistics of all points]), one per depth; from a search of all."""
+    every = assessment.run(scene.replace(**{"fatigue.depths": depths}), reader, alone=False)
+    found = [(field / scene.fatigue.endurance, every.passed) for field in every.findley_stress_at_depth[1:]]
+    rows = np.flatnonzero((every.passed > 0).any(axis=0))
+    by_row = [{float(every.feature_frame_y[row]): index_statistics.statistics(Fi[:, [row]], counts[:, [row]]) for row in rows}
+              for Fi, counts in found]
+    return by_row, [index_statistics.statistics(Fi, counts) for Fi, counts in found]
+
+
 @pytest.mark.parametrize("half", [True, False])
 def test_statistics_below_a_rough_surface_are_those_of_all_its_points(taichi_cpu, monkeypatch, half):
     """Against a search of all points at these depths. The rows of the worst points alone have a larger median."""
-    scene = tehl.scene("gear").replace(**{"thermal.on": False, "fatigue.surfaces": "a", "feature.width": 0.4 * 0.36216e-3})
+    scene = NARROW
     reader = RoughAcross(scene, 8, 17)
     if not half:
         reader.y = np.concatenate([-reader.y[:0:-1], reader.y])
     monkeypatch.setattr(index_statistics, "is_rough", lambda scene: True)
-    found = assessment.run(scene, reader, alone=False)
-    deep = found.summary["below"]["statistics"]
-    depths = [one["depth_m"] for one in deep["by_depth"]]
-    every = assessment.run(scene.replace(**{"fatigue.depths": depths}), reader, alone=False)
-    counted, stresses = every.passed > 0, every.findley_stress_at_depth[1:]
-    rows = np.flatnonzero(counted.any(axis=0))
-    assert 1 < rows.size == deep["rows"] < 8  # so few that all are searched
-    for one, field in zip(deep["by_depth"], stresses):
-        whole = index_statistics.statistics(field / scene.fatigue.endurance, every.passed)
+    deep = assessment.run(scene, reader, alone=False).summary["below"]["statistics"]
+    rows, every = every_point(scene, reader, [one["depth_m"] for one in deep["by_depth"]])
+    assert 1 < len(rows[0]) == deep["rows"] < 8  # so few that all are searched
+    for one, whole, by_row in zip(deep["by_depth"], every, rows):
         assert {**one, **whole} == pytest.approx(one, rel=1e-4)
-        row = field[:, [int(np.argmin(np.abs(every.feature_frame_y)))]] / scene.fatigue.endurance
-        assert one["median"] < np.median(row[counted.any(axis=1)])
+        assert one["median"] < by_row[min(by_row, key=abs)]["median"]
+
+
+@pytest.mark.parametrize("reader, y, cells", [(Rolling, 0.0, 8), (BothSides, 5e-5, 16)])
+def test_statistics_below_a_feature_are_those_of_its_row_at_their_depth(taichi_cpu, reader, y, cells):
+    """Against a search of all points at these depths. Rows of a search beside the axis are numbered as in the whole grid."""
+    scene = NARROW.replace(**{"feature.y": y})
+    passage = reader(scene, cells, 17)
+    deep = assessment.run(scene, passage, alone=False).summary["below"]["statistics"]
+    rows, _ = every_point(scene, passage, [one["depth_m"] for one in deep["by_depth"]])
+    assert deep["rows"] == 1 < len(rows[0])
+    for one, by_row in zip(deep["by_depth"], rows):
+        middle = by_row[min(by_row, key=lambda at: abs(at - y))]
+        assert {**one, **middle} == pytest.approx(one, rel=1e-4)
+
+
+def test_statistics_below_a_surface_use_the_limit_of_their_depth(taichi_cpu, tmp_path):
+    """With a limit that doubles over depth the index of a depth falls as its limit rises."""
+    reader = Rolling(NARROW, 8, 9)
+    (tmp_path / "case.csv").write_text("depth_mm,limit_MPa\n0,400\n1,800\n")
+    rising = NARROW.replace(**{"fatigue.table": str(tmp_path / "case.csv")})
+    plain, stronger = (assessment.run(scene, reader, alone=False).summary["below"]["statistics"]["by_depth"]
+                       for scene in (NARROW, rising))
+    for one, other in zip(plain, stronger):
+        assert other["p99"] == pytest.approx(one["p99"] / (1 + one["depth_m"] / 1e-3), rel=1e-6)
 
 
 def test_the_sample_is_spread_over_all_points():
     chosen = np.flatnonzero(index_statistics.sample(np.ones((100, 40))))
     assert chosen.size <= index_statistics.SAMPLE and np.ptp(np.diff(chosen)) == 0
     assert 4000 - chosen[-1] <= chosen[1] - chosen[0]
-
-
-@pytest.mark.parametrize("grows", [0.0, 1.0])
-def test_between_depths_the_stress_is_linear_in_the_logarithm_and_the_limit_that_of_the_depth(grows):
-    """A stress that rises with the logarithm of the depth; the index is even where the limit rises with it."""
-    depths, top = np.geomspace(1e-5, 1e-3, 9), 1e-5
-
-    def limits(at):
-        return [4e8 * (1 + grows * np.log(one / top)) for one in at]
-
-    f = 1e8 * (1 + np.log(depths / top))[:, None] * np.ones(40)
-    profile = SimpleNamespace(depths=depths, f=f, worst=SimpleNamespace(y=0.0))
-    passage = SimpleNamespace(a=1e-3, y=np.zeros(1), strength=SimpleNamespace(limits=limits), scene=NARROW)
-    for one in index_statistics.below(passage, [profile], np.ones((40, 1)))["by_depth"]:
-        assert one["p99"] == pytest.approx(0.25 if grows else 0.25 * (1 + np.log(one["depth_m"] / top)), rel=1e-6)
-
-
-def test_statistics_below_a_row_need_the_points_that_count_in_it():
-    """Of a window that begins beside the axis: the rows of a search are numbered as in the whole grid."""
-    scene = NARROW.replace(**{"feature.y": 5e-5})
-    reader = BothSides(scene, 16, 17)
-    passage = StressHistories(scene, reader, reader.centres, sought=Sought.COUNTED)
-    counts = index_statistics.weights(passage)
-    assert passage.rows.start > 0 and 0 < counts.any(axis=0).sum() < passage.y.size
-    for n, row in enumerate(range(passage.rows.start, passage.rows.stop)):
-        needed = depth_profile._needed(passage, row, np.array([1e-5, 2e-5]))
-        assert np.array_equal(needed, np.tile(counts[:, n] > 0, 2) if counts[:, n].any() else np.full(2 * passage.x.size, True))

@@ -67,8 +67,8 @@ class StressHistories:
         self.y = reader.y[self.rows]
         # as long as all points need: the history of a point does not depend on the choice of searched points
         before, after = self._lead_in(centres[0]), self._lead_out(centres[-1])
-        ends = self.x[0], self.x[-1]
-        if box is not None:
+        ends, self.boxed = (self.x[0], self.x[-1]), box is not None
+        if self.boxed:
             self._keep(box)
         self.centres = np.concatenate([before, centres, after])
         pace = self.surface.pace
