@@ -5,7 +5,7 @@ import numpy as np
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.energy import HOT
 from tehl_taichi.pressure import fields
-from tehl_taichi.scene import domain, refinement, thick_film, thin_film
+from tehl_taichi.scene import domain, domain_warnings, overlap, refinement, thick_film, thin_film
 from tehl_taichi.scene.film_formula import heated_film
 from tehl_taichi.values.digits import number_of
 
@@ -26,7 +26,7 @@ def crossed_surfaces(shot, a, border):
     film = np.where(border, shot.fields["film"], np.inf)
     i, j = np.unravel_index(film.argmin(), film.shape)
     return NotConverged(f"step {shot.step}: the surfaces cross at the border of the grid, a film of {film[i, j]:.2g} m at X = "
-                        f"{shot.x[i] / a:.2f}: a feature is higher than the gap there; use a larger domain (grid.x_min, "
+                        f"{shot.x[i] / a:.2f}: features are higher than the gap there; use a larger domain (grid.x_min, "
                         "grid.x_max, grid.y_max)")
 
 
@@ -83,11 +83,13 @@ def _too_high(scene):
     """Text about features that no film carries, "" without any; a map may contain the form of its body, or have another
     unit.
     """
-    if (top := max(f.top for f in scene.features)) <= HIGH * (film := heated_film(scene)):
+    film = heated_film(scene)
+    if (top := overlap.highest_at(scene, 0.0, HIGH * film)) <= HIGH * film:
         return ""
     measured = any(f.kind.measured for f in scene.features)
     remedy = " (check feature.unit, and remove the form with feature.level)" if measured else ""
-    return (f"a feature rises {top:.2g} m{remedy} where the film formula has {film:.2g} m; use a lower feature, or try "
+    who = domain_warnings.higher(scene, top, ("a feature rises", "overlapping features rise"))
+    return (f"{who} {top:.2g} m{remedy} where the film formula has {film:.2g} m; use a lower feature, or try "
             f"{refinement.finer_grid_option(scene)}")
 
 

@@ -9,8 +9,8 @@ from tehl_taichi.report.document import table
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.run_tables import in_file
 from tehl_taichi.scene.feature_wording import feature_word, met_words
+from tehl_taichi.scene.overlap import height_at
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.view.figures.height_profile import height_at
 from tehl_taichi.view.figures.index_text import index_text
 from tehl_taichi.view.figures.palette import LIMIT
 

@@ -20,6 +20,7 @@ from tehl_taichi.scene import (
     named_oils,
     oil,
     oil_range,
+    overlap,
     overrides,
     replaced_keys,
     resolution,
@@ -188,17 +189,17 @@ class Scene:
         if self.contact.kind != "line" and side < BEYOND:
             raise SceneError(f"grid.y_max = {side:g} b: a {self.contact.kind} contact extends to 1 b; allowed: at "
                              f"least {BEYOND:g} b")
-        highest, s = max((f.top for f in self.features), default=0.0), scales.Scales.of(self)
-        need = math.sqrt(2 * max(highest, 0.0) / s.h)
+        s = scales.Scales.of(self)
         for key, end in (("x_min", float(self.grid.x_min)), ("x_max", float(self.grid.x_max))):
-            if self.transient and abs(end) < need:
-                gap = 0.5 * end**2 * s.h
+            gap = 0.5 * end**2 * s.h
+            if self.transient and gap < (highest := overlap.highest_at(self, end, gap)):
                 farther = f", or a wider domain: {words}" if (words := domain_warnings.domain_words(self)) else ""
+                more = math.sqrt(highest / gap) * abs(end) / min(abs(end), domain.INLETS[0])
                 raise SceneError(f"{self._load_words()} gives a half-width a of {s.a:.3g} m and so, at grid.{key} = {end:g} "
-                                 "a, an "
-                                 f"undeformed gap of {gap:.3g} m, smaller than the height of a feature, {highest:.3g} m; "
+                                 f"a, an undeformed gap of {gap:.3g} m, smaller than the height of "
+                                 f"{domain_warnings.higher(self, highest)}, {highest:.3g} m; "
                                  f"allowed: a height of at most {gap:.2g} m, more load{farther}"
-                                 f"{self.load_meant(need / min(abs(end), domain.INLETS[0])) or self._form_words()}")
+                                 f"{self.load_meant(more) or self._form_words()}")
 
     def _check_zoom(self):
         """Check that a scene with a fine window stores every step."""

@@ -2,7 +2,7 @@
 
 import math
 
-from tehl_taichi.scene import hertz, resolution
+from tehl_taichi.scene import hertz, overlap, resolution
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import Option, grid_option
 from tehl_taichi.values.coded_warning import with_data
@@ -24,7 +24,7 @@ def warnings(scene):
 
 def domain_words(scene):
     """Options of a domain that fits the features, with cells of the present size; "" if none does."""
-    ends = {key: end for key, _, _, end in _low(scene)} | _sides(scene)
+    ends = {key: end for key, *_, end in _low(scene)} | _sides(scene)
     if not ends or max(map(abs, ends.values())) > FARTHEST:
         return ""
     sets, grid = [f"grid.{key}={end:g}" for key, end in ends.items()], _grid(scene, ends)
@@ -32,21 +32,27 @@ def domain_words(scene):
 
 
 def _low(scene):
-    """(key, end (a), gap (m), a sufficient end) for each end of the grid where the gap is too low."""
-    s, top = Scales.of(scene), max((f.top for f in scene.features), default=0.0)
+    """(key, end (a), gap (m), height (m) of the features there, a sufficient end) for each end of the grid where the gap is too
+    low."""
+    s = Scales.of(scene)
     gap = hertz.line_gap if s.line else hertz.point_gap
     for key in ("x_min", "x_max"):
         end = getattr(scene.grid, key)
         room = gap(max(abs(end), 1.0)) * s.h
-        if top > room:
-            yield key, end, room, math.copysign(math.ceil(10 * AMPLE * hertz.gap_reaches(top / s.h, gap)) / 10, end)
+        if (top := overlap.highest_at(scene, end, room)) > room:
+            yield key, end, room, top, math.copysign(math.ceil(10 * AMPLE * hertz.gap_reaches(top / s.h, gap)) / 10, end)
 
 
 def _low_ends(scene):
-    top = max((f.top for f in scene.features), default=0.0)
-    for key, end, room, _ in _low(scene):
-        yield (f"a feature of {top:.3g} m passes grid.{key} = {end:g} a, where the dry gap is {room:.3g} m; the run stops "
-               "there unless the film is thick enough")
+    for key, end, room, top, _ in _low(scene):
+        who, passes = higher(scene, top), higher(scene, top, ("passes", "pass"))
+        yield (f"{who} of {top:.3g} m {passes} grid.{key} = {end:g} a, where the dry gap is {room:.3g} m; the run stops there "
+               "unless the film is thick enough")
+
+
+def higher(scene, top, words=("a feature", "overlapping features")):
+    """Words for the one feature, or for the features together, that reach this height (m)."""
+    return words[top > max(f.top for f in scene.features)]
 
 
 def _wide(scene):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tehl_taichi.scene.overlap import height_at
 from tehl_taichi.scene.scales import Scales
 
 PEAKS = 5  # along a line that count as many
@@ -22,18 +23,9 @@ def _peaks(scene, features):
     ends = [(f.x - first.x - r, f.x - first.x + r) for f, r in zip(features, reach)] or [(-s.a, s.a)]
     x = np.linspace(min(low for low, _ in ends), max(high for _, high in ends), POINTS)
     y, lines = (np.linspace(-wide, wide, count) - first.y for count in (POINTS, LINES))
-    along = _heights(features, x[:, None], lines[None])
-    across = _heights(features, np.linspace(x[0], x[-1], LINES)[None], y[:, None])
+    along = height_at(features, x[:, None] + first.x, lines[None] + first.y)
+    across = height_at(features, np.linspace(x[0], x[-1], LINES)[None] + first.x, y[:, None] + first.y)
     return max(_most(np.abs(heights)) for heights in (along, across))
-
-
-def _heights(features, x, y):
-    """Heights (points, lines), m, at positions relative to the centre of the first feature."""
-    first = features[0]
-    out = np.zeros(np.broadcast(x, y).shape)
-    for f in features:
-        out = out + f.height_at(x + first.x - f.x, y + first.y - f.y)
-    return out
 
 
 def _most(heights):

@@ -11,13 +11,6 @@ from tehl_taichi.scene.scales import Scales
 FEATURE = tehl.scene("gear").features[0]
 
 
-def test_heights_are_relative_to_the_first_feature():
-    two = (dataclasses.replace(FEATURE, x=1e-4, y=5e-5), dataclasses.replace(FEATURE, x=3e-4, y=2e-4))
-    x, y = np.linspace(-3e-4, 3e-4, 31)[:, None], np.linspace(-3e-4, 3e-4, 31)[None]
-    wanted = sum(f.height_at(x + 1e-4 - f.x, y + 5e-5 - f.y) for f in two)
-    assert np.array_equal(rough_surfaces._heights(two, x, y), wanted)
-
-
 def test_peaks_side_by_side_are_counted_across_rolling():
     """Where no line along it meets more than one."""
     ball = tehl.scene("ball-on-disc")

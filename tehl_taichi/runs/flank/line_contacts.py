@@ -4,7 +4,7 @@ import contextlib
 import math
 
 from tehl_taichi.errors import SceneError
-from tehl_taichi.scene import grid_for_features, hertz
+from tehl_taichi.scene import grid_for_features, hertz, overlap
 from tehl_taichi.scene.aliases import BY_SURFACE, full_name
 from tehl_taichi.scene.scales import reduced_modulus
 
@@ -76,7 +76,8 @@ def room(plain, load, R):
     if not plain.features:
         return {}
     a, _ = hertz.line(load, R, reduced_modulus(plain))
-    end = hertz.gap_reaches(SPARE * max(f.top for f in plain.features) * R / a**2)
+    top = sum(overlap.highest_on(surface.features, a) for surface in plain.surfaces)
+    end = hertz.gap_reaches(SPARE * top * R / a**2)
     reach, grid = max(abs(f.centre_y) + f.reach_y for f in plain.features), plain.grid
     side = min(AROUND * reach / a, 20.0) if math.isfinite(reach) else 0.0
     ends = {"grid.x_min": (-end, end), "grid.x_max": (end, end), "grid.y_max": (side, side)}

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl_taichi.scene.overlap import height_at
 from tehl_taichi.scene.scales import Scales
 
 EVEN = 399     # points of a mesh along x and y; odd: one stands in the middle
@@ -51,11 +52,6 @@ def heights(scene):
         x, y = _even(features, "x", EVEN), _even([f for f in features if not f.transverse], "y", EVEN, edge)
     filled = sum(f.kind.filled(f, x[:, None] - f.x, y - f.y) for f in features) > 0
     return Heights(x, y, height_at(features, x[:, None], y), filled)
-
-
-def height_at(features, x, y):
-    """Height (m) of all these features together at x, y (m, arrays, as in :class:`Heights`)."""
-    return sum(f.height_at(x - f.x, y - f.y) for f in features)
 
 
 def _own(f):
