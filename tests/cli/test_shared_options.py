@@ -2,16 +2,20 @@
 
 import ast
 from collections import Counter
+from dataclasses import fields
+from inspect import signature
 from pathlib import Path
 
 import pytest
 import tehl_cli
 import typer
+from tehl_cli.crack_command import crack
 from tehl_cli.main import app
 from tehl_cli.scene_options import changes_of
 from tehl_cli.shared_options import sharing
 from typer.testing import CliRunner
 
+from tehl_taichi.crack.crack_options import CrackOptions
 from tehl_taichi.errors import SceneError, typed_options
 
 COMMANDS = typer.main.get_command(app).commands
@@ -58,3 +62,10 @@ def test_no_help_of_an_option_is_written_twice():
 def test_a_factor_that_no_window_has_is_named_by_its_option_too():
     with pytest.raises(SceneError, match="^--zoom 3 and --set zoom.factor=2 contradict each other"), typed_options():
         changes_of({"zoom.factor": 3}, None, ["zoom.factor=2"])
+
+
+def test_the_command_and_the_call_of_a_crack_have_equal_defaults():
+    """`tehl crack` names its defaults for --help, where the class behind `tehl_taichi.crack` would take long to import."""
+    of_command = {name: getattr(one.default, "default", one.default) for name, one in signature(crack).parameters.items()}
+    of_call = {one.name: one.default for one in fields(CrackOptions)}
+    assert {name: of_command[name] for name in of_call} == of_call
