@@ -112,9 +112,9 @@ def when(scene):
     return f"over all moments that count ({counted})" if counted else WHOLE
 
 
-def material(fatigue):
-    """Text of the source of kappa and the fatigue limit; example values are marked."""
-    if tables := scene_tables.words(fatigue):
+def material(fatigue, bodies="ab"):
+    """Text of the source of kappa and the fatigue limit of these bodies; example values are marked."""
+    if tables := scene_tables.words(fatigue, bodies):
         return tables
     default, own_source = type(fatigue)(), fatigue.source.strip().rstrip(".")
     if own_source.lower() not in ("", "example", "examples", default.source):

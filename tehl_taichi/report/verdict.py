@@ -14,7 +14,7 @@ from tehl_taichi.fatigue.judged_layers import (
     over,
     standing,
 )
-from tehl_taichi.fatigue.judged_surfaces import others
+from tehl_taichi.fatigue.judged_surfaces import by_surface, others
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.report.document import Answer
 from tehl_taichi.report.number_text import index, sentence_case, value_text
@@ -287,10 +287,10 @@ def _counted(scene):
 def _constants(store, summary):
     if "fatigue" not in summary:
         return (*limit_words(store.scene), *_meaning(store, summary)) if "contact_alone" in summary else ()
-    f = searched(summary["fatigue"])
-    limit = _limit(f["sigma_eF_Pa"], f["kappa_F"], f["criterion"], store.scene.fatigue)
-    stress = "counts" if f["thermal_stress"] else "does not count"
-    return (limit, *_meaning(store, summary), f"Thermal stress {stress} in the index.", *_counted(store.scene))
+    found = {name: searched(one) for name, one in by_surface(summary).items()}
+    limits = _limits({name: (f["sigma_eF_Pa"], f["kappa_F"], f["criterion"]) for name, f in found.items()}, store.scene.fatigue)
+    stress = "counts" if searched(summary["fatigue"])["thermal_stress"] else "does not count"
+    return (*limits, *_meaning(store, summary), f"Thermal stress {stress} in the index.", *_counted(store.scene))
 
 
 def _meaning(store, summary):
@@ -299,16 +299,25 @@ def _meaning(store, summary):
 
 
 def limit_words(scene):
-    """Sentence about the meaning of Fi = 1: source of the limit."""
-    local = Strength(scene.fatigue, scene.surfaces[0]).at(0.0)
-    return (_limit(local.endurance, local.kappa, local.criterion, scene.fatigue),)
+    """Sentences about the meaning of Fi = 1: source of the limit; one for each body if they differ."""
+    found = {surface.name: Strength(scene.fatigue, surface).at(0.0) for surface in scene.judged or scene.surfaces}
+    return _limits({name: (local.endurance, local.kappa, local.criterion) for name, local in found.items()}, scene.fatigue)
 
 
-def _limit(stress, kappa, criterion, known):
-    """Text of the meaning of Fi = 1; known: the section [fatigue], which has the source."""
-    where = " at the surface" if any(map(known.table_text, "ab")) else ""
+def _limits(bodies, known):
+    """Sentences about {body: (limit (Pa), kappa, criterion) at its surface}; known: the section [fatigue], which has the
+    source."""
+    alike = {}
+    for name, numbers in bodies.items():
+        alike.setdefault((*numbers, known.table_text(name or "a")), []).append(name or "a")
+    return tuple(_limit(*numbers, names, known, len(alike) > 1) for (*numbers, _), names in alike.items())
+
+
+def _limit(stress, kappa, criterion, names, known, apart):
+    """Sentence about the limit of the bodies `names`; apart: another body has another one."""
+    where = f" at the surface{f' of body {names[0]}' * apart}" if known.table_text(names[0]) or apart else ""
     return (f"Fi = 1 is the fatigue limit{where} σ_eF = {stress / 1e6:.4g} MPa with κ = {kappa:.4g} ({criterion}): "
-            f"{material(known)}.")
+            f"{material(known, names)}.")
 
 
 def _version(store):

@@ -1,5 +1,7 @@
 """Words and digits of reports."""
 
+import re
+
 import made_results
 import numpy as np
 import pytest
@@ -178,3 +180,29 @@ def test_speeds_and_half_axes_are_of_their_surface_and_direction():
     s = Scales.of(wide)
     half_axes = (number_text.value_text(size, unit="m") for size in (s.a, s.b))
     assert "half-axes {} along x and {} across".format(*half_axes) in " ".join(scene_text.words(wide)) and s.b > s.a
+
+
+def limits_of(**keys):
+    """Sentences about the limits of a scene with these keys of [fatigue], each as (body or "", limit in MPa, whether it names
+    example values)."""
+    found = verdict.limit_words(scene("gear").replace(**{f"fatigue.{key}": value for key, value in keys.items()}))
+    said = re.compile(r"Fi = 1 is the fatigue limit(?: at the surface)?(?: of body (.))? σ_eF = (\d+) MPa with")
+    return [(*said.match(text).groups(default=""), "example values" in text) for text in found]
+
+
+@pytest.mark.parametrize("keys, said", [
+    ({}, [("", "400", True)]), ({"table": "case-hardened"}, [("", "596", False)]),
+    ({"table": "case-hardened", "table_b": "none"}, [("a", "596", False), ("b", "400", True)]),
+    ({"table": "case-hardened", "table_b": "none", "surfaces": "a"}, [("", "596", False)]),
+    ({"table": "case-hardened", "table_b": "none", "surfaces": "b"}, [("", "400", True)])])
+def test_bodies_with_other_limits_have_a_sentence_each(keys, said):
+    """A body without a table has the constants and their source, not the table of the other one."""
+    assert limits_of(**keys) == said
+
+
+def test_a_run_says_the_limit_of_the_searched_bodies():
+    bodies = {"b": (4e8, 0.3, "findley"), "a": (596e6, 0.6, "findley")}
+    known = scene("gear").replace(**{"fatigue.table": "case-hardened", "fatigue.table_b": "none"}).fatigue
+    b, a = verdict._limits(bodies, known)
+    assert b.startswith("Fi = 1 is the fatigue limit at the surface of body b σ_eF = 400 MPa") and "table" not in b
+    assert a.startswith("Fi = 1 is the fatigue limit at the surface of body a σ_eF = 596 MPa") and "case-hardened" in a

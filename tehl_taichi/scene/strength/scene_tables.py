@@ -30,14 +30,14 @@ def text_of(fatigue, surface):
     return "" if own == PLAIN else own
 
 
-def words(fatigue):
-    """Text such as 'over the depth by the table case.csv, limit by the relation ss2506 (source; spread)', "" without a
-    table.
+def words(fatigue, bodies="ab"):
+    """Text of these bodies such as 'over the depth by the table case.csv, limit by the relation ss2506 (source; spread)', ""
+    without a table.
     """
-    texts = [text for text in dict.fromkeys((text_of(fatigue, "a"), text_of(fatigue, "b"))) if text]
+    texts = [text for text in dict.fromkeys(text_of(fatigue, body) for body in bodies) if text]
     if not texts:
         return ""
-    names = dict.fromkeys(filter(None, (name_of(fatigue, surface) for surface in "ab")))
+    names = dict.fromkeys(filter(None, (name_of(fatigue, body) for body in bodies)))
     known = f"over the depth by the table {' and '.join(names) or 'of the scene'}"
     if not any(table.of_text(text).has(HARDNESS) for text in texts):
         return known
