@@ -98,19 +98,21 @@ def plane_of(scene, reader, residual=None, check=None, surface=None):
     skin = SKIN * min(feature.reach, passage.a)
     count = int(np.ceil(np.log1p(DEEPEST * passage.a / skin) / np.log(GROWTH))) + 1
     depths = skin * (GROWTH ** np.arange(count) - 1)
+    # x' = 0 is the feature's centre, on the other surface the place that this centre meets at X = 0
+    x = passage.x - passage.surface.pace * feature.x
     if check:
-        check(passage.x, depths[-1])
+        check(x, depths[-1])
     stress = histories_of(passage, depths, [(0, False)])[0][..., KEPT].swapaxes(0, 1)
     if not np.isfinite(stress).all():
         raise SceneError("some stored tractions are not numbers, so the stresses are not known")
-    times, centres = passage.centres / passage.surface.speed, np.append(passage.positions, np.nan)
+    times, centres = passage.centres / passage.surface.speed, np.append(passage.positions + feature.x, np.nan)
     times = np.append(times, 2 * times[-1] - times[0])  # unloaded as long after
-    return SymmetryPlane(passage.x, skin, np.ascontiguousarray(stress), centres, passage.a, feature.reach, None, times,
+    return SymmetryPlane(x, skin, np.ascontiguousarray(stress), centres, passage.a, feature.reach, None, times,
                          Fluid.of(scene), passage.surface).having(residual)
 
 
 def first_feature_path(scene, reader):
-    """First feature, and the position of its centre (m) at every entry. Raises SceneError, see :func:`plane_of`."""
+    """First feature, and its position without feature.x (m) at every entry. Raises SceneError, see :func:`plane_of`."""
     centres = np.array([reader.feature_x(n) for n in range(len(reader))])
     if len(reader) < 2 or not np.isfinite(centres).all():
         raise SceneError("a crack needs the passage of a feature: a scene with a feature and at least one time step")

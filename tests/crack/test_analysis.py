@@ -342,6 +342,29 @@ def test_sides_of_the_other_body_are_those_of_the_feature_as_it_slides(taichi_cp
     np.testing.assert_allclose(np.diff(plane.times[:-1]), np.diff(plane.centres[:-1]) / scene.operation.u_a, rtol=1e-9)
 
 
+class Moved(Rolling):
+    """A passage whose feature lies at x = `ahead` (m), so that its positions are those of feature.x = 0."""
+
+    ahead = 0.4e-3
+
+    def feature_x(self, n):
+        return super().feature_x(n) - self.ahead
+
+
+@pytest.mark.parametrize("surface", ["a", "b"])
+def test_places_count_from_the_feature_wherever_its_x_lies(taichi_cpu, surface):
+    """The start, the sides and the path of a crack do not depend on the x from which its scene counts."""
+    scene = SCENE.replace(**{"thermal.on": False, "srr": -0.3})
+    plain, moved = (run(scene.replace(**{"feature.x": x}), reader(scene), CrackOptions(surface=surface, length=2e-5)).summary
+                    for x, reader in ((0.0, Rolling), (Moved.ahead, Moved)))
+    for side, found in plain["sides"].items():
+        other = moved["sides"][side]
+        assert found["opens"] == other["opens"]
+        for key in ("start_x_m", "sigma1_surface_Pa", "moment_x_m") if found["opens"] else ():
+            assert other[key] == pytest.approx(found[key], rel=1e-2, abs=1e-8), key
+    assert any(found["opens"] for found in plain["sides"].values())
+
+
 @pytest.mark.parametrize("at, opens", [(-130, True), (-170, False)])
 def test_tension_farther_than_one_and_a_half_half_widths_is_not_of_the_feature(at, opens):
     """The feature has a half width of 100 µm, and the tension 10 µm."""
