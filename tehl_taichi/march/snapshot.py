@@ -22,7 +22,7 @@ class Snapshot:
     time : float
         s, since the steady start.
     feature_x : float
-        Centre of the first feature, m; nan without a feature.
+        Position of feature.x = 0, the centre of a first feature there, m; nan without a feature.
     x, y : array (nx+1,), (ny+1,)
         Nodes, m.
     fields : dict

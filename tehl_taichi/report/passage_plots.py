@@ -4,7 +4,7 @@ import numpy as np
 
 from tehl_taichi.report.number_text import sentence_case
 from tehl_taichi.report.plots import colour, line, stack
-from tehl_taichi.scene.feature_wording import feature_word, position_title
+from tehl_taichi.scene.feature_wording import centre_word, position_title
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.digits import part_of
 from tehl_taichi.view.figures.line_figures import ALONG, SURFACES, carrier
@@ -115,7 +115,7 @@ def _caption(store, shown):
     along = Moments(store).along
     caption = f"{sentence_case(along)}.{_carries(store)}"
     if len(shown) > 1:
-        caption += f" Grey: the steady start; dotted: the centre of the {feature_word(store.scene)}."
+        caption += f" Grey: the steady start; dotted: the {centre_word(store.scene)}."
     left = [part_of(len(shown), store.steps, "stored moment")] * (len(shown) < store.steps)
     return caption + (f" {left[0]} are kept in this page." if left else "")
 

@@ -307,14 +307,15 @@ def limit_words(scene):
 def _limits(bodies, known):
     """Sentences about {body: (limit (Pa), kappa, criterion) at its surface}; known: the section [fatigue], which has the
     source."""
-    alike = {}
+    alike: dict = {}
     for name, numbers in bodies.items():
-        alike.setdefault((*numbers, known.table_text(name or "a")), []).append(name or "a")
-    return tuple(_limit(*numbers, names, known, len(alike) > 1) for (*numbers, _), names in alike.items())
+        alike.setdefault((numbers, known.table_text(name)), []).append(name)
+    return tuple(_limit(numbers, names, known, len(alike) > 1) for (numbers, _), names in alike.items())
 
 
-def _limit(stress, kappa, criterion, names, known, apart):
-    """Sentence about the limit of the bodies `names`; apart: another body has another one."""
+def _limit(numbers, names, known, apart):
+    """Sentence about the limit of the bodies `names`; numbers: as in :func:`_limits`; apart: another body has another one."""
+    stress, kappa, criterion = numbers
     where = f" at the surface{f' of body {names[0]}' * apart}" if known.table_text(names[0]) or apart else ""
     return (f"Fi = 1 is the fatigue limit{where} σ_eF = {stress / 1e6:.4g} MPa with κ = {kappa:.4g} ({criterion}): "
             f"{material(known, names)}.")

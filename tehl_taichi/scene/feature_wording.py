@@ -8,9 +8,23 @@ def feature_word(scene):
     return "scan" if scene and scene.features and scene.features[0].kind.measured else "feature"
 
 
+ORIGIN = "origin of feature.x"
+
+
+def is_off(scene):
+    """Whether the first feature lies beside the origin of feature.x, from which positions count."""
+    return bool(scene and scene.features and scene.features[0].x)
+
+
 def position_word(scene):
-    """Text for the point of a feature whose position is given: for a scan, which may be as long as the contact, its centre."""
-    return "scan centre" if feature_word(scene) == "scan" else "feature"
+    """Text for the point whose position is given: the feature; of a scan, which may be as long as the contact, its centre; the
+    origin of feature.x where the first feature lies beside it."""
+    return ORIGIN if is_off(scene) else "scan centre" if feature_word(scene) == "scan" else "feature"
+
+
+def centre_word(scene):
+    """Text for that point of a scene, drawn in it."""
+    return ORIGIN if is_off(scene) else f"centre of the {feature_word(scene)}"
 
 
 def range_words(low, high):
@@ -20,7 +34,8 @@ def range_words(low, high):
 
 def from_centre(scene, carries=True):
     """Title of an axis along a surface; carries: this surface carries the feature, whose centre is then fixed on the axis."""
-    return f"x from the {feature_word(scene)}'s centre{'' if carries else ' at X = 0'} (µm)"
+    origin = ORIGIN if is_off(scene) else f"{feature_word(scene)}'s centre"
+    return f"x from the {origin}{'' if carries else ' at X = 0'} (µm)"
 
 
 def met_words(scene, numbers):

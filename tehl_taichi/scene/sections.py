@@ -354,7 +354,7 @@ class Grid:
 @documented
 @dataclass(frozen=True, repr=False)
 class Time:
-    """Path of the centre of the first feature, and length of a step.
+    """Path of feature.x = 0, the centre of a first feature there, and length of a step.
 
     Examples
     --------

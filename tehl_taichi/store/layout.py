@@ -13,7 +13,7 @@ from tehl_taichi.store.integrity import ROOT
 
 # series of the snapshot itself: (dtype, units, text, what is not written yet, how they stand for several steps)
 OWN = {"step": ("i8", "1", "step number", -1, ""), "time": ("f8", "s", "time since the steady start", math.nan, ""),
-       "feature_x": ("f8", "m", "centre of the first feature", math.nan, "point")}
+       "feature_x": ("f8", "m", "position of feature.x = 0", math.nan, "point")}
 
 
 def lay_out(folder, capacity, scene, snapshot):

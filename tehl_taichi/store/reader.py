@@ -125,7 +125,8 @@ class Reader:
         return self.series[name][: self.steps]
 
     def feature_x(self, n: int) -> float:
-        """Position of the first feature's centre (m) at entry n. Raises SceneError as :meth:`fields`."""
+        """Position (m) of feature.x = 0, the centre of a first feature there, at entry n. Raises SceneError as
+        :meth:`fields`."""
         self._check_entry(n)
         return float(self.series["feature_x"][n])
 

@@ -8,7 +8,7 @@ import pytest
 
 from tehl_taichi.fatigue import judged_layers
 from tehl_taichi.report import number_text, scene_text, verdict
-from tehl_taichi.scene import scene
+from tehl_taichi.scene import feature_wording, scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import without_options
 from tehl_taichi.values.coded_warning import with_data
@@ -186,14 +186,14 @@ def limits_of(**keys):
     """Sentences about the limits of a scene with these keys of [fatigue], each as (body or "", limit in MPa, whether it names
     example values)."""
     found = verdict.limit_words(scene("gear").replace(**{f"fatigue.{key}": value for key, value in keys.items()}))
-    said = re.compile(r"Fi = 1 is the fatigue limit(?: at the surface)?(?: of body (.))? σ_eF = (\d+) MPa with")
+    said = re.compile(r"Fi = 1 is the fatigue limit(?: at the surface)?(?: of body (.))? σ_eF = ([\d.]+) MPa with")
     return [(*said.match(text).groups(default=""), "example values" in text) for text in found]
 
 
 @pytest.mark.parametrize("keys, said", [
-    ({}, [("", "400", True)]), ({"table": "case-hardened"}, [("", "596", False)]),
-    ({"table": "case-hardened", "table_b": "none"}, [("a", "596", False), ("b", "400", True)]),
-    ({"table": "case-hardened", "table_b": "none", "surfaces": "a"}, [("", "596", False)]),
+    ({}, [("", "400", True)]), ({"table": "case-hardened"}, [("", "595.6", False)]),
+    ({"table": "case-hardened", "table_b": "none"}, [("a", "595.6", False), ("b", "400", True)]),
+    ({"table": "case-hardened", "table_b": "none", "surfaces": "a"}, [("", "595.6", False)]),
     ({"table": "case-hardened", "table_b": "none", "surfaces": "b"}, [("", "400", True)])])
 def test_bodies_with_other_limits_have_a_sentence_each(keys, said):
     """A body without a table has the constants and their source, not the table of the other one."""
@@ -206,3 +206,14 @@ def test_a_run_says_the_limit_of_the_searched_bodies():
     b, a = verdict._limits(bodies, known)
     assert b.startswith("Fi = 1 is the fatigue limit at the surface of body b σ_eF = 400 MPa") and "table" not in b
     assert a.startswith("Fi = 1 is the fatigue limit at the surface of body a σ_eF = 596 MPa") and "case-hardened" in a
+
+
+def test_positions_count_from_the_origin_where_the_first_feature_lies_beside_it():
+    """A first feature at 3 mm is not at -9 half-widths when it enters the contact."""
+    beside = scene("gear").replace(**{"feature.x": 3e-3})
+    w = feature_wording
+    words = w.position_word, w.position_title, w.centre_word, w.from_centre
+    assert [word(beside) for word in words] == ["origin of feature.x", "position of the origin of feature.x x / a",
+                                                "origin of feature.x", "x from the origin of feature.x (µm)"]
+    assert [word(scene("gear")) for word in words] == ["feature", "position of the feature x / a", "centre of the feature",
+                                                       "x from the feature's centre (µm)"]

@@ -149,7 +149,7 @@ def _place_rows(point, when):
 
 def _frame(f):
     """Text after a place on the body without the feature, whose frame moves relative to the feature."""
-    return "" if f.get("carries_feature", True) else " (feature centre at X = 0)"
+    return "" if f.get("carries_feature", True) else " (feature.x = 0 at X = 0)"
 
 
 def _point_rows(f, frame=""):
