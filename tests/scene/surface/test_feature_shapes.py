@@ -1,13 +1,14 @@
 """Shapes of surface features at points where their heights follow by hand, and where a passage puts them."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from tehl_taichi.laws.gap import undeformed
 from tehl_taichi.scene import Scene, SceneError, scene
-from tehl_taichi.scene.feature import Feature
+from tehl_taichi.scene.feature import SHAPES, Feature
 
 UM = 1e-6
 
@@ -220,3 +221,17 @@ def test_a_dent_has_a_raised_rim_with_continuous_slopes():
 def test_a_dent_without_depth_or_rim_is_refused(keys, said):
     with pytest.raises(SceneError, match=said):
         Feature(shape="dent", **keys)
+
+
+def test_rough_waves_have_a_crest_on_the_axis():
+    """Their mean square there is twice that of all points, as the meaning of the height says; that of ground is not."""
+    x, y = np.random.default_rng(2).uniform(-0.5, 0.5, (2, 1001))
+
+    def ratio(shape):
+        """Mean squares of endless waves on the axis over those of all points, of 60 surfaces together."""
+        found = [[np.mean(SHAPES[shape].waves(SimpleNamespace(seed=seed, extent_x=500 * UM, width=40 * UM, length=40 * UM,
+                                                              height=UM, shortest_x=0.0, shortest_y=0.0), x, at) ** 2)
+                  for at in (0.0, y)] for seed in range(60)]
+        return np.divide(*np.sum(found, axis=0))
+
+    assert ratio("rough") == pytest.approx(2.0, rel=0.15) and ratio("ground") == pytest.approx(1.0, rel=0.15)

@@ -14,7 +14,9 @@ class Rough(RandomWaves):
         return (np.geomspace(max(f.extent_x, 2 * f.width), f.width, MODES),) * 2
 
     def waves(self, f, x, y):
-        """Sum of cosines of equal power per octave with random phases in x, even in y; rms = height."""
+        """Sum of cosines of equal power per octave with random phases in x, even in y; rms = height, on y = 0, where all have
+        a crest, sqrt(2) times that.
+        """
         rng = np.random.default_rng(f.seed)
         k, (along_x, along_y) = 2 * np.pi / self.lengths(f)[0], self.kept(f)
         phase, size = rng.uniform(0, 2 * np.pi, (MODES, MODES)), rng.standard_normal((MODES, MODES))
@@ -37,7 +39,8 @@ def rms_of_many():
 ROUGH = Rough(
     name="rough", says="random roughness, even in y, in a patch with a faded rim",
     source="equal power per octave, as on ground surfaces; not from a measurement", keys=Random,
-    uses={"height": "rms", "width": "shortest wavelength; others up to the patch "
-                                    "size", "extent_x": "", "extent_y": "", "taper": "", "mirror_x": ""},
+    uses={"height": "rms; on y = 0, about which it is even, 1.4 times as much (ground has one Ra everywhere)",
+          "width": "shortest wavelength; others up to the patch size",
+          "extent_x": "", "extent_y": "", "taper": "", "mirror_x": ""},
     example={"shape": "rough", "height": 0.1e-6, "width": 80e-6, "extent_x": 300e-6, "extent_y": 300e-6, "taper": 50e-6},
     checked=(Checked("rms = height: the square of sums of cosines has their powers for its mean", 0.2e-6, rms_of_many, 0.02),))
