@@ -538,6 +538,8 @@ def sweep(scene: "Scene | Name", over: Mapping, path: Name | None = None, *, sam
         No case can run with these changes.
     StoreError
         The folder holds another study, or cannot be written.
+    Interrupted
+        The disk refused a result; the same call resumes.
     RuntimeUnavailable
         A scheduler is given and Dask is not installed.
 

@@ -88,6 +88,12 @@ class StoreError(Error):
     exit_code = BAD_INPUT
 
 
+class DiskError(StoreError):
+    """The disk is full or fails; with free space the same command works."""
+
+    exit_code = FAILED
+
+
 class RuntimeUnavailable(Error, RuntimeError):
     """This process or machine does not offer the requested architecture, precision or number of threads."""
 

@@ -15,7 +15,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from tehl_taichi.disk.files import reason
+from tehl_taichi.disk.files import reason, store_error
 from tehl_taichi.disk.links import ROOT, is_folder
 from tehl_taichi.disk.locks import LOCK, Busy, Lock, holder, is_abandoned, lock_content
 from tehl_taichi.errors import StoreError
@@ -49,7 +49,7 @@ class Draft:
         except BaseException as error:
             self.give_up()
             if isinstance(error, OSError):
-                raise StoreError(f"cannot write to {self.path}: {reason(error)}") from None
+                raise store_error(error, f"cannot write to {self.path}: {reason(error)}") from None
             raise
 
     def allowed(self, replace):
@@ -96,7 +96,7 @@ class Draft:
             _put(made or self.folder, self.path, self.replaces)
         except OSError as error:
             put_back(self.path)
-            raise StoreError(f"cannot write {self.path}: {reason(error)}") from None
+            raise store_error(error, f"cannot write {self.path}: {reason(error)}") from None
         self.published = True
         if made:
             remove(self.folder, self.lock)

@@ -8,11 +8,12 @@ import re
 import secrets
 import stat
 
-from tehl_taichi.errors import StoreError
+from tehl_taichi.errors import DiskError, StoreError
 
 TEMPORARY = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")  # unguessable: no link can be there before
 LINK = "it is a link, and tehl does not write through links"
 TEXT = 2e8  # bytes: no attributes, tables or scenes of ours are larger
+FAULTS = {errno.ENOSPC, errno.EFBIG, errno.EIO, getattr(errno, "EDQUOT", errno.ENOSPC)}  # of the disk, not of a path
 UNWAITING = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)  # the reader of a FIFO would wait for its writer
 UNFOLLOWING = getattr(os, "O_NOFOLLOW", 0) | UNWAITING
 
@@ -118,10 +119,15 @@ def reason(error):
     return error.strerror or str(error)
 
 
+def store_error(error, message):
+    """StoreError with this message about an OSError; a DiskError if the disk is full or fails, whatever the path."""
+    return (DiskError if error.errno in FAULTS else StoreError)(message)
+
+
 @contextlib.contextmanager
 def disk_errors(path, doing="cannot write"):
-    """Context manager: OSErrors of the disk become a StoreError about `path`."""
+    """Context manager: OSErrors of the disk become a StoreError about `path`, see :func:`store_error`."""
     try:
         yield
     except OSError as error:
-        raise StoreError(f"{doing} {path}: {reason(error)}") from None
+        raise store_error(error, f"{doing} {path}: {reason(error)}") from None

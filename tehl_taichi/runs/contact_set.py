@@ -13,6 +13,7 @@ from tehl_taichi.disk import files, links, user_files
 from tehl_taichi.errors import StoreError
 from tehl_taichi.values.checks import integer
 from tehl_taichi.values.coded_warning import summary_for_reader
+from tehl_taichi.values.escape import typed
 
 DAMAGES = ValueError, KeyError, TypeError, AttributeError, RecursionError  # of a JSON file that tehl did not write
 
@@ -38,7 +39,7 @@ class ContactSet:
             return cls._read(folder)
         except DAMAGES as error:
             raise StoreError(f"{file} is damaged ({type(error).__name__}: {error}); repeat the tehl {cls.KIND} command to "
-                             f"write it again with --out {folder}, which keeps a copy of this file") from None
+                             f"write it again with --out {typed(folder)}, which keeps a copy of this file") from None
 
     @classmethod
     def _read(cls, folder):
@@ -64,10 +65,18 @@ class ContactSet:
 
     @classmethod
     def check_writable(cls, folder: Path, own: Self | None = None) -> None:
-        """Raise StoreError if no set can be made or resumed in `folder`, or if its set is another than `own`."""
+        """Raise StoreError if no set can be made or resumed in `folder`, or if its set is another than `own`; DiskError without
+        room for its stores.
+        """
+        from tehl_taichi.store.store_draft import check_room, writable_folder
+
         user_files.check_outside(folder)
-        if not os.path.lexists(folder):
-            return
+        if os.path.lexists(folder):
+            cls._check_content(folder, own)
+        check_room(writable_folder(folder))
+
+    @classmethod
+    def _check_content(cls, folder, own):
         links.refuse(folder)
         if cls.lies_in(folder):
             cls._check_set(folder, own)

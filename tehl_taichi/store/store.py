@@ -20,7 +20,7 @@ from tehl_taichi.disk import files
 from tehl_taichi.disk.drafts import remove_whole
 from tehl_taichi.disk.files import reason
 from tehl_taichi.disk.locked_folder import LockedFolder, locked_folder
-from tehl_taichi.errors import Error, Interrupted
+from tehl_taichi.errors import DiskError, Interrupted
 from tehl_taichi.march.step_output import names
 from tehl_taichi.scene import scene_file
 from tehl_taichi.store import checkpoint, chunks, integrity, layout, stored_maps, written_chunks
@@ -50,7 +50,7 @@ class Store(LockedFolder, Reader):
         """
         place = path if isinstance(path, StoreDraft) else CaseDraft(path)
         try:
-            with _disk_errors(place.folder, "nothing is stored", Error):
+            with _disk_errors(place.folder, "nothing is stored", DiskError):
                 store = cls._create(place, scene, snapshot, capacity, attrs or {})
                 store._append(snapshot, snapshot.state, put=files.write)  # it has no reader yet
             place.publish()
@@ -196,7 +196,7 @@ class Store(LockedFolder, Reader):
 
 @contextlib.contextmanager
 def _disk_errors(path, what_is_left, kind=Interrupted):
-    """Context manager: disk errors (full, read-only, moved) become a StoreError or Interrupted with a message."""
+    """Context manager: disk errors (full, read-only, moved) become an error of class `kind`."""
     try:
         yield
     except OSError as error:

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from tehl_taichi.disk import links, user_files
 from tehl_taichi.disk.drafts import Draft, exists, remove
-from tehl_taichi.disk.files import reason
+from tehl_taichi.disk.files import reason, store_error
 from tehl_taichi.disk.locks import Busy, Lock
-from tehl_taichi.errors import Error, StoreError
+from tehl_taichi.errors import DiskError, StoreError
 from tehl_taichi.store import integrity
 
 ROOM = 50e6  # bytes
@@ -78,10 +78,10 @@ def writable_folder(path):
 
 
 def check_room(folder):
-    """Raise Error if the disk of an existing folder has no room for a run."""
+    """Raise DiskError if the disk of an existing folder has no room for a run."""
     free = shutil.disk_usage(folder).free
     if free < ROOM:
-        raise Error(f"{folder} has only {free / 1e6:.0f} MB left; a run needs at least {ROOM / 1e6:.0f} MB")
+        raise DiskError(f"{folder} has only {free / 1e6:.0f} MB left; a run needs at least {ROOM / 1e6:.0f} MB")
 
 
 def lock_to_replace(path):
@@ -97,4 +97,4 @@ def lock_to_replace(path):
     try:
         return Lock(path)
     except OSError as error:
-        raise StoreError(f"cannot replace {path}: {reason(error)}") from None
+        raise store_error(error, f"cannot replace {path}: {reason(error)}") from None

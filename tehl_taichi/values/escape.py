@@ -32,12 +32,13 @@ def _prints(c, keep):
 
 
 def typed(path):
-    """A path as a word of a command.
+    """A path as a word of a command, never as an option.
 
-    >>> typed("my runs/a.zarr"), typed("a.zarr")
-    ("'my runs/a.zarr'", 'a.zarr')
+    >>> typed("my runs/a.zarr"), typed("a.zarr"), typed("-a.zarr")
+    ("'my runs/a.zarr'", 'a.zarr', './-a.zarr')
     """
-    return shlex.quote(str(path))
+    text = str(path)
+    return shlex.quote(f"./{text}" if text.startswith("-") else text)
 
 
 def one_line(text):

@@ -24,6 +24,7 @@ from tehl_cli.fatigue_options import _depths
 
 import tehl_taichi as tehl
 from tehl_taichi import errors
+from tehl_taichi.disk import files
 from tehl_taichi.errors import brief, typed_options
 from tehl_taichi.runs.sweep import case, case_records, study_file, sweeping
 from tehl_taichi.runs.sweep.plan import plan
@@ -142,7 +143,8 @@ def test_new_where_nothing_can_be_written(taichi_cpu, tmp_path, monkeypatch, sca
         with monkeypatch.context() as disk:
             disk.setattr(Path, method, fail)
             found = here(*words)
-        assert found.returncode == 2 and found.stdout == "" and one_sentence(found.stderr)
+        code = 1 if error.errno == errno.ENOSPC else 2
+        assert found.returncode == code and found.stdout == "" and one_sentence(found.stderr)
         assert str(tmp_path) in found.stderr and error.strerror in found.stderr
         assert {path.name for path in tmp_path.iterdir()} == {"scan.csv"}
 
@@ -168,12 +170,42 @@ def test_a_sweep_into_a_full_disk(tmp_path, monkeypatch, where):
     assert study.counts["converged"] == 2 and Study.open(path).counts == study.counts
 
 
-def test_a_sweep_without_room_for_its_runs_does_not_begin(tmp_path, monkeypatch):
-    usage = SimpleNamespace(free=3e6)
+def test_commands_without_room_for_their_runs_do_not_begin(tmp_path, monkeypatch):
+    usage, cycle = SimpleNamespace(free=3e6), tmp_path / "cycle.csv"
+    cycle.write_text("angle_deg, load_N_per_mm, R_mm, u_a_m_s, u_b_m_s\n0, 100, 10, 3.0, 1.0\n")
     monkeypatch.setattr("shutil.disk_usage", lambda folder: usage)
-    words = ("--over", "srr=0.1,0.2", "--workers", 1, "--threads-per-worker", 2, "--out", tmp_path / "new" / "s")
-    found = here("sweep", "gear", *words)
-    assert found.returncode == 1 and "only 3 MB left" in found.stderr and list(tmp_path.iterdir()) == []
+    for words in (("run", "smooth-line"), ("sweep", "gear", "--over", "srr=0.1,0.2", "--workers", 1, "--threads-per-worker", 2),
+                  ("flank", "fzg-c", "--steady"), ("cam", cycle), ("bearing", "6206", "--load", 3000, "--speed", 3000)):
+        found = here(*words, "--out", tmp_path / "new" / "s")
+        assert found.returncode == 1 and "only 3 MB left" in found.stderr and list(tmp_path.iterdir()) == [cycle], words
+
+
+def test_a_study_on_a_full_disk_is_interrupted_once_it_has_a_result(tmp_path, monkeypatch):
+    """The exit code of a run that is resumed from its stored steps."""
+    path, over = tmp_path / "s.zarr", {"srr": [0.1, 0.2]}
+
+    def second(job, progress=None):
+        monkeypatch.setattr("tehl_taichi.runs.sweep.case_records.append", full)
+        return made_up(job)
+
+    answers = iter((made_up, second))
+    with pytest.raises(tehl.Interrupted, match="No space left on device; stored cases are kept") as found:
+        sweeping.run(plan(GEAR, over), path, workers=1, work=lambda job, progress=None: next(answers)(job))
+    assert found.value.exit_code == 4 and Study.open(path).counts["converged"] == 1
+
+
+def test_a_flank_on_a_full_disk_is_interrupted(tmp_path, monkeypatch):
+    from tehl_taichi.runs.flank import outcomes
+
+    class Full:
+        folder = tmp_path / "my flank"
+
+        def write(self):
+            raise files.store_error(OSError(errno.ENOSPC, "full"), "cannot write")
+
+    monkeypatch.setattr(outcomes, "summaries", lambda *_: iter([(0, None)]))
+    with pytest.raises(tehl.Interrupted, match="cannot write; repeat the command with .* '.*my flank' to resume"):
+        outcomes.computed(Full(), lambda made, n, outcome: made, [GEAR])
 
 
 def test_the_systems_refusals_are_told_without_their_numbers(tmp_path, monkeypatch):

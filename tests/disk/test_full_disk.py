@@ -2,6 +2,7 @@
 
 import errno
 import os
+import re
 import shutil
 import subprocess
 
@@ -83,8 +84,28 @@ def test_commands_on_a_full_disk(noise, small_disk, command):
     name, *more = command
     out = small_disk / ("a" if name in ("export", "plot") else "a.html" if name == "report" else "a.gif")
     done = process(name, noise, "--out", out, *more)
-    assert done.returncode in (1, 2) and "No space left on device" in done.stderr and "Traceback" not in done.stderr
+    assert done.returncode == 1 and "No space left on device" in done.stderr and "Traceback" not in done.stderr
     assert not out.is_file() and not [path for path in small_disk.rglob("*") if path.name.startswith(".")]
+
+
+@pytest.mark.parametrize("number, code", [(errno.ENOSPC, 1), (errno.EDQUOT, 1), (errno.EFBIG, 1), (errno.EIO, 1), (errno.EACCES, 2),
+                                          (errno.EROFS, 2), (errno.ENOTDIR, 2), (errno.ENAMETOOLONG, 2)])
+def test_a_full_disk_is_no_invalid_input(tmp_path, monkeypatch, number, code):
+    """One exit code wherever the disk refuses: of a single file, of a draft and of figures."""
+    from tehl_taichi.disk import files, user_files
+    from tehl_taichi.view.figures import figure_style
+
+    def refuse(*_, **__):
+        raise OSError(number, os.strerror(number))
+
+    monkeypatch.setattr("pathlib.Path.mkdir", refuse)
+    for write in (lambda: user_files.text(tmp_path / "a.md", "text"), lambda: figure_style.make_folder(tmp_path / "a")):
+        with pytest.raises(StoreError, match=re.escape(os.strerror(number))) as found:
+            write()
+        assert found.value.exit_code == code
+    with pytest.raises(StoreError) as found, files.disk_errors(tmp_path):
+        refuse()
+    assert found.value.exit_code == code
 
 
 def test_a_result_that_is_there_stays(tmp_path, monkeypatch):

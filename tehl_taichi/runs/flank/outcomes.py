@@ -4,13 +4,14 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from tehl_taichi.errors import StoreError, interrupt
+from tehl_taichi.errors import DiskError, Interrupted, StoreError, interrupt
 from tehl_taichi.runs import passages_left, single_run
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.single_run import check_version
 from tehl_taichi.runs.sweep import case, pool
 from tehl_taichi.values.coded_warning import Kinds
 from tehl_taichi.values.digits import number_of, part_of
+from tehl_taichi.values.escape import typed
 
 STAGE = "positions"
 
@@ -35,9 +36,14 @@ def computed(made, with_outcome, scenes, workers=None, threads=None, progress=No
             made, done = with_outcome(made, n, outcome), done + 1
             made.write()
     except KeyboardInterrupt as stop:
-        raise interrupt(stop, f" after {part_of(done, len(scenes), 'contact')}; repeat the command with --out {made.folder} to "
-                              "resume") from None
+        raise interrupt(stop, f" after {part_of(done, len(scenes), 'contact')}; {_remedy(made)}") from None
+    except DiskError as error:
+        raise Interrupted(f"{error}; {_remedy(made)}") from None
     return made
+
+
+def _remedy(made):
+    return f"repeat the command with --out {typed(made.folder)} to resume"
 
 
 def summaries(scenes, folder, workers=None, threads=None, progress=None):

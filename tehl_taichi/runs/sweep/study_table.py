@@ -22,10 +22,10 @@ import numpy as np
 
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
-from tehl_taichi.disk.files import disk_errors, json_of, reason, replace
+from tehl_taichi.disk.files import disk_errors, json_of, reason, replace, store_error
 from tehl_taichi.disk.locked_folder import LockedFolder, locked_folder
 from tehl_taichi.disk.user_files import check_outside
-from tehl_taichi.errors import SceneError, StoreError, extra
+from tehl_taichi.errors import Interrupted, SceneError, StoreError, extra
 from tehl_taichi.runs.sweep import case_records as records
 from tehl_taichi.runs.sweep import summary_columns
 from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
@@ -129,13 +129,12 @@ class Study(LockedFolder):
 
     @contextlib.contextmanager
     def _disk_errors(self):
-        """Context manager: disk errors (full, read-only) become a StoreError."""
+        """Context manager: disk errors (full, read-only) become Interrupted, before the first result a StoreError."""
         try:
             yield
         except OSError as error:
-            raise StoreError(f"cannot write to {self.path}: {reason(error)}; stored cases are kept, and the same command "
-                             "resumes") \
-                from None
+            what = f"cannot write to {self.path}: {reason(error)}; stored cases are kept, and the same command resumes"
+            raise (Interrupted(what) if self.status.any() else store_error(error, what)) from None
 
     def close(self) -> None:
         """Write all pending data and release the lock."""
@@ -193,7 +192,8 @@ class Study(LockedFolder):
                    **{name: float(column[n]) for name, column in self.values.items()}}
 
     def add(self, record):
-        """Store the record of a completed case; the table is updated from time to time. Raises StoreError."""
+        """Store the record of a completed case; the table is updated from time to time. Raises StoreError, Interrupted.
+        """
         with self._disk_errors():
             records.append(self.path, record)
         self._take(record)
@@ -209,7 +209,7 @@ class Study(LockedFolder):
             self.values.setdefault(name, np.full(len(self), np.nan))[n] = value
 
     def flush(self):
-        """Write arrays and CSV in their present state. Raises StoreError."""
+        """Write arrays and CSV in their present state. Raises StoreError, Interrupted."""
         with self._disk_errors():
             self._flush()
 

@@ -70,7 +70,7 @@ def check_settings(workers=None, threads_per_worker=None, scheduler=None, keep="
 
 
 def check_place(plan, path, keep="stores"):
-    """Raise StoreError if the study of `plan` cannot be written at `path`, Error if the disk has no room for its stores."""
+    """Raise StoreError if the study of `plan` cannot be written at `path`; DiskError without room for its stores."""
     from tehl_taichi.runs.sweep.study_table import Study
     from tehl_taichi.store.store_draft import check_room, writable_folder
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from tehl_taichi.disk import links, user_files
-from tehl_taichi.disk.files import reason
+from tehl_taichi.disk.files import reason, store_error
 from tehl_taichi.errors import SceneError, StoreError, extra
 from tehl_taichi.values.checks import choice, flag, integer, number
 from tehl_taichi.values.coerce import plain
@@ -216,5 +216,5 @@ def make_folder(folder):
     try:
         Path(folder).mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise StoreError(f"cannot put figures into {folder}: {reason(error)}; --out takes a folder") from None
+        raise store_error(error, f"cannot put figures into {folder}: {reason(error)}; --out takes a folder") from None
     return Path(folder)
