@@ -9,6 +9,7 @@ Each has a lock; one whose lock does not belong to this program is left alone.
 """
 
 import contextlib
+import errno
 import fnmatch
 import os
 import shutil
@@ -64,7 +65,7 @@ class Draft:
 
     def _make(self):
         self.made = _parents(self.path)
-        self.path.parent.mkdir(parents=True, exist_ok=True)
+        _make_folders(self.path)
         clean(self.path.parent)
         self.lock = self._locked()
         for leftover in self.folder.iterdir():
@@ -198,6 +199,14 @@ def unfinished_error(path):
 def _parents(path):
     """Missing folders above `path`, the innermost first."""
     return [folder for folder in path.absolute().parents if not os.path.exists(folder)]
+
+
+def _make_folders(path):
+    """Make the folders above `path`. Raises OSError, with the name of a file in their place."""
+    nearest = next(folder for folder in path.absolute().parents if os.path.lexists(folder))
+    if not os.path.isdir(nearest):
+        raise NotADirectoryError(errno.ENOTDIR, f"{nearest} is not a folder")
+    path.parent.mkdir(parents=True, exist_ok=True)
 
 
 def remove(folder, lock):

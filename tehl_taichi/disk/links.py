@@ -20,8 +20,8 @@ def refuse(folder):
     for path in (*_links_through(folder), folder, *_below(folder)):
         if what := special_kind(os.lstat(path)):
             where = f"{folder} holds {what}, {path}" if path.is_relative_to(folder) and path != folder else f"{path} is {what}"
-            raise StoreError(f"{where}, and tehl does not write through links. `cp -rL {shlex.quote(str(folder))} NEW` makes a copy without "
-                             "links that can be written")
+            raise StoreError(f"{where}, and tehl does not write through links. `cp -rL {shlex.quote(str(folder))} NEW` makes a "
+                             "copy without links that can be written")
 
 
 def special_kind(status):

@@ -77,6 +77,8 @@ class ContactSet:
 
     @classmethod
     def _check_content(cls, folder, own):
+        if not os.path.isdir(folder) and not os.path.islink(folder):
+            raise StoreError(f"{folder} exists and is not a folder; choose another --out")
         links.refuse(folder)
         if cls.lies_in(folder):
             cls._check_set(folder, own)

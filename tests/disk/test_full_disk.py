@@ -88,8 +88,8 @@ def test_commands_on_a_full_disk(noise, small_disk, command):
     assert not out.is_file() and not [path for path in small_disk.rglob("*") if path.name.startswith(".")]
 
 
-@pytest.mark.parametrize("number, code", [(errno.ENOSPC, 1), (errno.EDQUOT, 1), (errno.EFBIG, 1), (errno.EIO, 1), (errno.EACCES, 2),
-                                          (errno.EROFS, 2), (errno.ENOTDIR, 2), (errno.ENAMETOOLONG, 2)])
+@pytest.mark.parametrize("number, code", [(errno.ENOSPC, 1), (errno.EDQUOT, 1), (errno.EFBIG, 1), (errno.EIO, 1),
+                                          (errno.EACCES, 2), (errno.EROFS, 2), (errno.ENOTDIR, 2), (errno.ENAMETOOLONG, 2)])
 def test_a_full_disk_is_no_invalid_input(tmp_path, monkeypatch, number, code):
     """One exit code wherever the disk refuses: of a single file, of a draft and of figures."""
     from tehl_taichi.disk import files, user_files

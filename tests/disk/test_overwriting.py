@@ -1,6 +1,7 @@
 """Every --out: what is there stays, without --force whatever it is, with it unless tehl wrote it; nothing inside a store."""
 
 import os
+import re
 
 import made_results
 import pytest
@@ -145,3 +146,18 @@ def test_files_of_others_are_not_taken_for_ours(tmp_path, name):
                     b"<?xml version='1.0'?><p>tehl_taichi</p>", b"%PDF-1.4 tehl_taichi", b"<html>tehl_taichi"):
         (tmp_path / name).write_bytes(content)
         assert not is_ours(tmp_path / name), content
+
+
+@pytest.mark.parametrize("name, said", [("file.csv", "file.csv"), ("n" * 300, "its name has 300 bytes|File name too long"),
+                                        ("file.csv/new", "file.csv is not a folder|/file.csv: no permission")])
+def test_a_name_that_no_result_can_have(run, tmp_path, monkeypatch, name, said):
+    """Refused with the path and exit code 2, before anything is computed."""
+    monkeypatch.chdir(tmp_path)
+    file = tmp_path / "file.csv"
+    file.write_text("angle_deg, load_N_per_mm, R_mm, u_a_m_s, u_b_m_s\n0, 100, 10, 3.0, 1.0\n")
+    computing = (("run", "smooth-line"), ("sweep", "smooth-line", "--over", "srr=0,0.1"), ("flank", "fzg-c", "--steady"),
+                 ("cam", file), ("bearing", "6206", "--load", 3000, "--speed", 3000), ("traction", "smooth-line"))
+    for words in (*computing, ("export", run), ("plot", run)):
+        code, words_of_it = cli(*words, "--out", name)
+        assert code == 2 and re.search(said, words_of_it) and words_of_it.count("\n") <= 2, words_of_it
+        assert [path.name for path in tmp_path.iterdir()] == ["file.csv"]
