@@ -61,7 +61,7 @@ def run(
     `tehl run my.toml --set feature.height=1um`
     """
     import tehl_taichi as tehl
-    from tehl_taichi.runs import single_run
+    from tehl_taichi.runs import single_run, zoom_store
     from tehl_taichi.scene import zoom_room
     from tehl_taichi.store.load_scene import find_changed
 
@@ -84,9 +84,8 @@ def run(
         single_run.check(description, out, force, threads, arch)
         return _print_plan(description) if as_json else _print_scene(description)
     with Live(quiet, curves) as live, time_budget(live if timing else None) as budget:
-        done = tehl.run(description, out, force=force, threads=threads, arch=arch, progress=live)
-        if zoom == AUTO and not zoom_room.why_none(description) and done.finished:
-            done = tehl.zoom(done.path, AUTO, threads=threads, progress=live)
+        compute = zoom_store.run if zoom == AUTO and not zoom_room.why_none(description) else tehl.run
+        done = compute(description, out, force=force, threads=threads, arch=arch, progress=live)
     _print(done, as_json, description.warnings(), budget)
     if description.time.steps == 0 and not quiet:
         _print_time(done)
@@ -117,7 +116,7 @@ def resume(
 
     before = open_run(store)
     runtime.check_number(threads)
-    if before.rest(steps) is None:
+    if before.rest(steps) is None and not before.store.seeks_window:
         entries = number_of(len(before.store), "entry", "entries")
         say(f"{store} is finished ({entries}); `tehl show {typed(store)}` prints its summary")
         if as_json:

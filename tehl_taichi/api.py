@@ -182,9 +182,9 @@ def resume(path: Name, *, steps: int | None = None, threads: int | None = None, 
     >>> tehl.resume("begun.zarr", steps=1)
     <tehl.Run gear: 2 steps, finished, begun.zarr>
     """
-    from tehl_taichi.runs import single_run
+    from tehl_taichi.runs import zoom_store
 
-    return single_run.resume(path, steps=steps, threads=threads, progress=progress)
+    return zoom_store.resume(path, steps=steps, threads=threads, progress=progress)
 
 
 def zoom(path: Name, factor: int | str = 4, *, threads: int | None = None, progress: "Progress | None" = None) -> "Run":

@@ -109,12 +109,12 @@ def test_an_old_name_works_and_warns():
 
 
 def test_classes_and_functions_of_one_name_have_the_same_defaults():
-    from tehl_taichi.runs import single_run
+    from tehl_taichi.runs import single_run, zoom_store
     from tehl_taichi.runs.flank.flank_run import flank
     from tehl_taichi.runs.sweep import sweeping
     from tehl_taichi.view.figures.animation import animate
 
-    for inner in (animate, flank, sweeping.sweep, single_run.run, single_run.resume):
+    for inner in (animate, flank, sweeping.sweep, single_run.run, zoom_store.resume, zoom_store.zoom):
         outer = inspect.signature(getattr(api, inner.__name__)).parameters
         assert {name: p.default for name, p in outer.items()} == {
             name: p.default for name, p in inspect.signature(inner).parameters.items()}

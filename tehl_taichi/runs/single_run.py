@@ -26,12 +26,12 @@ def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, fo
         arch: str | None = None, progress: Progress | None = None) -> Run:
     """Run a scene: see :func:`tehl_taichi.run`."""
     flag("force", force)
-    return _run(find(scene), path, force, threads, arch, progress_of(progress))
+    return into_new_store(find(scene), path, force, threads, arch, progress)
 
 
-def _run(scene, path, force, threads, arch, progress, case=False):
-    """Run as :func:`run`; case: the store is part of a study or a flank and lies inside it."""
-    began = time.perf_counter()
+def into_new_store(scene, path, force=False, threads=None, arch=None, progress=None, case=False, attrs=()):
+    """Run as :func:`run`; case: the store is part of a study or a flank and lies inside it; attrs: more attributes of it."""
+    began, progress = time.perf_counter(), progress_of(progress)
     from tehl_taichi.engine import runtime
     from tehl_taichi.store.store_draft import CaseDraft, StoreDraft
 
@@ -42,7 +42,7 @@ def _run(scene, path, force, threads, arch, progress, case=False):
              else StoreDraft.fresh(Path("runs"), scene.name))
     with place, _stoppable(place.path, place):
         runtime.start_or_join(arch, threads)
-        return _begin(scene, place, _Clock(began), progress)
+        return _begin(scene, place, _Clock(began), progress, dict(attrs))
 
 
 def check(scene, path=None, force=False, threads=None, arch=None):
@@ -99,7 +99,7 @@ def run_or_resume(scene: Scene, path: str | PathLike, *, threads: int | None = N
     from tehl_taichi.store.integrity import is_store
 
     if not is_store(path):
-        return _run(scene, path, False, threads, None, progress_of(progress), case=True)
+        return into_new_store(scene, path, threads=threads, progress=progress, case=True)
     there = open(path)
     check_version(path, there)
     if there.scene != scene:
@@ -138,7 +138,7 @@ def _spent(saved):
     return saved.summary.get("wall_s", float(saved.scalar("wall_s").sum()))
 
 
-def _begin(scene, place, clock, progress):
+def _begin(scene, place, clock, progress, attrs):
     """Compute the steady start into a new store, then everything after it."""
     from tehl_taichi.engine import runtime
     from tehl_taichi.runs import background_errors
@@ -150,7 +150,7 @@ def _begin(scene, place, clock, progress):
         progress.say("compiling kernels, once for this version: up to a minute; later runs load them")
     with background_errors.coarse_grid_runs(scene) as coarse_answers_until:
         first, steady = _steady_start(scene, progress)
-        with Store.create(place, scene, first, most_steps(scene) + 1, _attributes(scene, steady)) as saved:
+        with Store.create(place, scene, first, most_steps(scene) + 1, {**_attributes(scene, steady), **attrs}) as saved:
             return _finish(saved, saved.go_back(), steady, clock, progress, coarse_answers_until)
 
 
@@ -347,7 +347,7 @@ def _what_is_left(path):
         left = open(path)
     except StoreError:
         return f"; {path} can no longer be read"
-    if left.finished:
+    if left.finished and not left.store.seeks_window:
         return f"; {path} is finished"
     return f" after {number_of(left.store.last_step, 'step')}{_missing_words(left)}; resume with: tehl resume {typed(path)}"
 
@@ -356,6 +356,8 @@ def _missing_words(left):
     """Text of the missing part of a passage."""
     from tehl_taichi.scene.timeline import total_steps
 
+    if left.finished:
+        return ", the whole passage; the window that it needs is missing"
     if running := run_in_stage.words(left.store):
         return running
     if left.store.last_step < total_steps(left.scene):

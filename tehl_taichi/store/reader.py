@@ -68,6 +68,11 @@ class Reader:
         return self.attrs["finished"]
 
     @property
+    def seeks_window(self):
+        """Whether the run still has to find the window that it needs (`tehl run --zoom auto`)."""
+        return self.attrs.get(integrity.SEEKS) is True
+
+    @property
     def writer(self):
         """Description of the process that is writing to the store, or None."""
         return holder(self.path)

@@ -183,6 +183,12 @@ class Store(LockedFolder, Reader):
             self._commit(scene=json.dumps(scene.to_dict()), scene_toml=scene_file.dumps(scene), results="[]", finished=False,
                          **texts(scene.typed_warnings))
 
+    def note_search(self, seeks):
+        """Note whether the run seeks the window that it needs. Raises Interrupted."""
+        with _disk_errors(self.path, f"then use: tehl resume {typed(self.path)}"):
+            self.attrs = {name: value for name, value in self.attrs.items() if name != integrity.SEEKS}
+            self._commit(**{integrity.SEEKS: True} if seeks else {})
+
     def finish(self, summary, maps=None):
         """Store the summary (and maps {name: (values, dims, units, text)}) and mark the run as finished."""
         with _disk_errors(self.path, f"every step is stored; then use: tehl resume {typed(self.path)}"):

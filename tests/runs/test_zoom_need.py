@@ -20,7 +20,8 @@ class Stored(types.SimpleNamespace):
 def finished(scene, resolved=None, error=None, monkeypatch=None):
     """A finished run whose grid resolves the pressure up to a place, with the error of its largest pressure."""
     monkeypatch.setattr(zoom_need.coarse_runs, "resolved", lambda *given: resolved)
-    return types.SimpleNamespace(scene=scene, store=Stored(scalar=None, scene=scene), path="a.zarr", finished=True,
+    store = Stored(scalar=None, scene=scene, seeks_window=False)
+    return types.SimpleNamespace(scene=scene, store=store, path="a.zarr", finished=True,
                                  summary={"transient": {"error": {"p_max_Pa": error}}})
 
 
@@ -77,18 +78,38 @@ class Said(Progress):
         self.texts.append(text)
 
 
+@pytest.fixture
+def windows(monkeypatch):
+    """Factors of the windows that a search tries: windows(errors, before) gives (run, factors, what is said); errors: of p_max,
+    by factor."""
+    def search(errors, before):
+        tried, progress, seeks = [], Said(), []
+
+        def window(_, factor, *__):
+            tried.append(factor)
+            return finished(SCENE.replace(**{"zoom.factor": factor}), 0.8, errors[factor], monkeypatch)
+
+        monkeypatch.setattr(single_run, "open", lambda path: before, raising=False)
+        monkeypatch.setattr(zoom_store, "_with_window", window)
+        monkeypatch.setattr(zoom_store, "_note", lambda done, now: seeks.append(now))
+        run = zoom_store._with_needed_window(before, None, progress)
+        assert seeks == [True] * len(tried) + [False]
+        return run, tried, progress.texts
+
+    return search
+
+
 @pytest.mark.parametrize("errors, tried", [({4: 1e7}, [4]), ({4: None, 8: 1e7}, [4, 8]), ({4: None, 8: None}, [4, 8])])
-def test_factors_are_tried_until_the_pressure_is_known(monkeypatch, errors, tried):
-    done, progress, real = [], Said(), zoom_store.zoom
+def test_factors_are_tried_until_the_pressure_is_known(monkeypatch, windows, errors, tried):
+    run, found, texts = windows(errors, finished(SCENE, 0.8, None, monkeypatch))
+    assert found == tried and run.scene.zoom.factor == tried[-1] and len(texts) == len(tried)
 
-    def zoom(path, factor, **given):
-        done.append(factor)
-        return finished(SCENE.replace(**{"zoom.factor": factor}), 0.8, errors[factor], monkeypatch)
 
-    monkeypatch.setattr(single_run, "open", lambda path: finished(SCENE, 0.8, None, monkeypatch), raising=False)
-    monkeypatch.setattr(zoom_store, "zoom", zoom)
-    run = real("a.zarr", "auto", progress=progress)
-    assert done == tried and run.scene.zoom.factor == tried[-1] and len(progress.texts) == len(tried)
+@pytest.mark.parametrize("factor, error, tried", [(4, None, [8]), (4, 1e7, []), (8, None, [])])
+def test_a_resumed_search_continues_after_its_last_window(monkeypatch, windows, factor, error, tried):
+    before = finished(SCENE.replace(**{"zoom.factor": factor}), 0.8, error, monkeypatch)
+    before.store.seeks_window = True
+    assert windows({8: 1e7}, before)[1:] == (tried, [f"{zoom_need.reason(before)}: a window of factor 8"] * len(tried))
 
 
 def test_a_run_without_need_stays_as_it_is(monkeypatch):

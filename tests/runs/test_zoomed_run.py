@@ -10,6 +10,7 @@ from types import SimpleNamespace
 import made_results
 import numpy as np
 import pytest
+from commands import here
 from small_stores import SMALL
 
 import tehl_taichi as tehl
@@ -290,3 +291,52 @@ def test_a_window_that_fails_leaves_the_run_as_it_was(plain, folder, monkeypatch
         np.testing.assert_array_equal(after.store.map("Fi"), plain.store.map("Fi"))
     else:
         assert after.scene.zoom.factor == 2
+
+
+@pytest.fixture(scope="module")
+def sought(folder):
+    """A run with the window that it needs, as of `tehl run --zoom auto`."""
+    from tehl_taichi.runs import zoom_store
+
+    done = zoom_store.run(LINE.replace(**{"numerics.estimate_error": True}), folder / "sought.zarr")
+    assert done.scene.zoom.factor == 4 and not done.store.seeks_window
+    return done
+
+
+@pytest.mark.parametrize("where", ["march.passage.march", "runs.zoom_store._factors_left", "runs.zoomed_run.levels",
+                                   "runs.zoomed_run.search", "runs.zoom_need.settled", "runs.zoom_store._at_the_end"])
+def test_a_stopped_search_for_a_window_is_resumed_to_the_same_result(sought, folder, monkeypatch, where):
+    """Stopped before the first entry, after the run, in its window, and before the search ends."""
+    from tehl_taichi.runs import single_run, zoom_store
+
+    path = folder / f"{where}.zarr"
+
+    def stop(*_, **__):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as stopped, pytest.raises(KeyboardInterrupt):
+        if where == "march.passage.march":
+            stopped.setattr("tehl_taichi.runs.recorder.march", stop)
+        else:
+            stopped.setattr(f"tehl_taichi.{where}", stop)
+        zoom_store.run(sought.scene.replace(**{"zoom.factor": 0}), path)
+    assert tehl.open(path).store.seeks_window
+    assert "resume with: tehl resume" in single_run._what_is_left(path)
+    done = here("resume", path, "--quiet")
+    assert done.returncode == 0, done.stderr
+    found = tehl.open(path)
+    assert not found.store.seeks_window and found.scene == sought.scene and numbers(found.summary) == numbers(sought.summary)
+    assert found.store.metadata.keys() == sought.store.metadata.keys()
+    for name in found.store.metadata:
+        if name != "wall_s":
+            np.testing.assert_array_equal(found.to_xarray()[name], sought.to_xarray()[name], err_msg=name)
+
+
+def test_a_chosen_window_ends_the_search(sought, folder):
+    from tehl_taichi.runs import zoom_store
+
+    path = shutil.copytree(sought.path, folder / "chosen.zarr")
+    zoom_store._note(tehl.open(path), True)
+    assert tehl.open(path).store.seeks_window
+    done = tehl.zoom(path, 4)
+    assert not done.store.seeks_window and not tehl.open(path).store.seeks_window
