@@ -74,6 +74,7 @@ class Study(LockedFolder):
         self.path, self.plan, self.lock = Path(path), plan, lock
         self.status = np.zeros(plan.count, "i1")
         self.values, self.written, self.due = {}, {}, 0.0
+        self.first: dict[str, tuple[int, int]] = {}  # case in which a column is first, and its place there
         for record in records.read(self.path):
             if record["case"] < plan.count:
                 self._take(record)
@@ -186,10 +187,10 @@ class Study(LockedFolder):
 
     def rows(self) -> Iterator[dict]:
         """Generator of one dictionary per case: its number, keys, status and numbers."""
-        words = {number: word for word, number in records.STATUS.items()}
+        words, columns = {number: word for word, number in records.STATUS.items()}, self.columns
         for n in range(len(self)):
             yield {"case": n, **self.plan.changes(n), "status": words[int(self.status[n])],
-                   **{name: float(column[n]) for name, column in self.values.items()}}
+                   **{name: float(self.values[name][n]) for name in columns}}
 
     def add(self, record):
         """Store the record of a completed case; the table is updated from time to time. Raises StoreError, Interrupted.
@@ -205,8 +206,14 @@ class Study(LockedFolder):
         self.status[n] = records.STATUS[record["status"]]
         for column in self.values.values():
             column[n] = np.nan
-        for name, value in summary_columns.of_case(record.get("summary") or {}).items():
+        for place, (name, value) in enumerate(summary_columns.of_case(record.get("summary") or {}).items()):
             self.values.setdefault(name, np.full(len(self), np.nan))[n] = value
+            self.first[name] = min(self.first.get(name, (n, place)), (n, place))
+
+    @property
+    def columns(self) -> list[str]:
+        """Names of the numbers of its cases, in the order of the cases, whichever ended first."""
+        return sorted(self.values, key=self.first.__getitem__)
 
     def flush(self):
         """Write arrays and CSV in their present state. Raises StoreError, Interrupted."""
@@ -259,7 +266,7 @@ class Study(LockedFolder):
 
     def _csv(self):
         text = io.StringIO()
-        out = csv.DictWriter(text, ["case", *self.plan.keys, "status", *self.values], restval="", lineterminator="\n")
+        out = csv.DictWriter(text, ["case", *self.plan.keys, "status", *self.columns], restval="", lineterminator="\n")
         out.writerow({key: cell(key) for key in out.fieldnames})
         for row in self.rows():
             out.writerow({key: _cell(value) for key, value in row.items()})

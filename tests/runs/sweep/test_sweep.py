@@ -78,6 +78,22 @@ def test_a_study_is_a_table_over_the_swept_keys(study):
     assert "left_out" not in rows[0] and float(rows[7]["feature.height"]) == 1e-6
 
 
+def test_the_table_does_not_depend_on_which_case_ends_first(tmp_path):
+    """Workers end in any order, and cases have different numbers."""
+    over = plan(GEAR, {"srr": [-0.1, 0.1, 0.2]})
+    parts = ({"fatigue": {"Fi_max": 1.0}, "transient": {"p_max_Pa": 2e9}},
+             {"transient": {"h_min_m": 1e-7}, "steady": {"h_c_m": 4e-7}},
+             {"steady": {"h_c_m": 4e-7, "p_max_Pa": 1e9}, "fatigue": {"Fi_max": 0.5}})
+    found = set()
+    for order in ((0, 1, 2), (2, 0, 1), (1, 2, 0)):
+        with Study.write(tmp_path / str(order), over) as study:
+            for n in order:
+                study.add({"case": n, "changes": {}, "status": "converged", "reason": "", "store": None, "seconds": 1.0,
+                           "summary": parts[n]})
+        found |= {study.table.read_text(), Study.open(study.path)._csv()}
+    assert len(found) == 1
+
+
 def test_a_damaged_table_is_refused_by_name(study, tmp_path):
     pytest.importorskip("xarray")
     path = shutil.copytree(study.path, tmp_path / "a.zarr")
