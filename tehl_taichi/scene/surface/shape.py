@@ -54,8 +54,8 @@ class Shape(Entry):
         return self.transverse(f) or f.y == 0
 
     def top(self, f):
-        """Largest height."""
-        return f.height
+        """Largest height; 0 of a dent in a flat surface."""
+        return max(f.height, 0.0)
 
     def sizes(self, f):
         """({key: length along x}, {key: length along y}) that the grid must resolve."""
@@ -93,12 +93,12 @@ def shared_key_meaning(shapes, key, about):
 
 
 def share(where, expected, x, y, **keys):
-    """Check value of a shape: its height at x, y (m) over its top."""
+    """Check value of a shape: its height at x, y (m) over the size of its key `height`, over its top without one."""
     def compute():
         from tehl_taichi.scene.feature import Feature  # which is made of all shapes
 
         f = Feature(**keys)
-        return float(f.height_at(np.array([x]), np.array([y]))[0]) / f.top
+        return float(f.height_at(np.array([x]), np.array([y]))[0]) / (abs(f.height) or f.top)
 
     return Checked(where, expected, compute)
 

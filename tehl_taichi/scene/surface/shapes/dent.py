@@ -56,8 +56,8 @@ DENT = Dent(
     source="dents of particles have shoulders (Ville & Nelias, Tribology Transactions 42, 1999); cosines chosen here",
     uses={"height": "negative: depth of the dent", "width": "of the dent inside its rim"}, keys=Rim,
     example={"shape": "dent", "height": -1e-6, "width": 200e-6, "rim": 0.2e-6},
-    checked=(share("the middle of the rim is its top", 1.0, 75e-6, 100e-6, shape="dent", height=-1e-6, width=200e-6, rim=2e-7),
-             share("half of the rim at a quarter of its width", 0.5, 112.5e-6, 0.0, shape="dent", height=-1e-6, width=200e-6,
+    checked=(share("the middle of the rim is its top", 0.2, 75e-6, 100e-6, shape="dent", height=-1e-6, width=200e-6, rim=2e-7),
+             share("half of the rim at a quarter of its width", 0.1, 112.5e-6, 0.0, shape="dent", height=-1e-6, width=200e-6,
                    rim=2e-7),
-             share("by hand, half of the depth at a quarter of the width", -2.5, 0.0, 50e-6, shape="dent", height=-1e-6,
+             share("by hand, half of the depth at a quarter of the width", -0.5, 0.0, 50e-6, shape="dent", height=-1e-6,
                    width=200e-6, rim=2e-7, rim_width=math.pi * 1e-5)))

@@ -46,7 +46,7 @@ class RandomWaves(Patch):
 
     def top(self, f):
         """Largest height, as an estimate."""
-        return HIGHEST * self.rms(f)
+        return HIGHEST * abs(self.rms(f))
 
     def kept(self, f):
         """Indices (along x, along y) of the waves that are kept."""

@@ -5,6 +5,7 @@ import numpy as np
 from tehl_taichi.scene.surface.shape import Shape, share
 
 REACH = 0.7  # of its width: 10^(-10 0.7^2) is 1e-5 of the height
+VALLEY = 0.040430  # of the height: depth of the valleys beside it, where tan(2 pi xi) = -10 ln(10) xi/pi, xi = 0.31504
 
 
 class Ridge(Shape):
@@ -18,6 +19,10 @@ class Ridge(Shape):
 
     def transverse(self, f):
         return True
+
+    def top(self, f):
+        """Largest height: beside a furrow that of its rims."""
+        return max(f.height, -VALLEY * f.height)
 
 
 RIDGE = Ridge(

@@ -20,6 +20,10 @@ class Waviness(Patch):
         across = np.cos(2 * np.pi * y / f.length) if f.length else 1.0
         return f.height * np.cos(2 * np.pi * x / f.width) * across * self.window(f, x, y)
 
+    def top(self, f):
+        """Largest height: of waves with a negative one, that of their first crest."""
+        return abs(f.height)
+
     def transverse(self, f):
         return f.length == 0 and f.extent_y == 0
 
