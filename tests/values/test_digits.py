@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tehl_taichi.values.digits import micrometres, number_of, part_of, with_error
+from tehl_taichi.values.digits import SCALES, micrometres, number_of, part_of, printed_unit, with_error
+from tehl_taichi.values.units import in_unit
 
 ROOT = Path(__file__).parents[2]
 
@@ -27,6 +28,19 @@ def test_value_and_error_have_the_same_decimals():
             text = with_error(1.2345 * 10.0**power, 1.2345 * ratio * 10.0**power)
             found = re.match(r"\(?(-?\d+(?:\.(\d+))?) ± (\d+(?:\.(\d+))?)", text)
             assert found and found[2] == found[4] or len(found[2]) == len(found[4]), found
+
+
+@pytest.mark.parametrize("unit", [*SCALES, "W"])
+def test_a_printed_unit_is_read_as_the_number_that_it_stands_for(unit):
+    for size in (-3e9, -2e-4, 0.0, 5e-7, 2e-3, 4.0, 8e8, 3e9):
+        factor, shown = printed_unit(unit, size)
+        assert in_unit("", f"{size * factor!r} {shown}", unit) == pytest.approx(size) if shown != unit else factor == 1.0
+
+
+@pytest.mark.parametrize("unit, size, shown", [("m", 9e-4, "µm"), ("m", -9e-4, "µm"), ("m", 2e-3, "mm"), ("m", -2e-3, "mm"),
+                                               ("m", 2.0, "m"), ("Pa", -9e8, "MPa"), ("Pa", -2e9, "GPa")])
+def test_numbers_of_either_sign_have_the_printed_unit_of_their_size(unit, size, shown):
+    assert printed_unit(unit, size)[1] == shown
 
 
 @pytest.mark.parametrize("length, shown", [(9.74e-6, "9.7"), (9.94e-6, "9.9"), (9.96e-6, "10"), (183.4e-6, "183"), (0.0, "0")])

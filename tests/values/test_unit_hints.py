@@ -19,6 +19,7 @@ from tehl_taichi.scene.oil import Oil
 from tehl_taichi.scene.sections import SECTIONS, Body
 from tehl_taichi.values.quantity import Number, Numbers, kinds
 from tehl_taichi.values.unit_hints import WRITTEN
+from tehl_taichi.values.units import UNITS
 
 DECLARED = {**SECTIONS, "oil": Oil, "feature": Feature, "bodies": Body, "gear": GearPair, "bearing": RollingBearing,
             "crack": CrackOptions}
@@ -30,6 +31,15 @@ EITHER = {"oil.eta_g", "gear.torque", "bearing.load"}
 
 def test_every_unit_with_another_way_to_write_it_is_tried():
     assert len(TYPED) > 80 and {"Pa", "m", "1/Pa", "Pa sqrt(m)", "m2/s"} <= {kind.unit for _, kind, _, _ in TYPED}
+
+
+def test_names_of_powers_are_units_of_that_size():
+    """By the tables of units that texts may have."""
+    tables = [{**sizes, unit: 1.0} for unit, sizes in UNITS.items()]
+    for unit, ways in WRITTEN.items():
+        for power, name in ways:
+            sizes = [table[name] / table[unit] for table in tables if {unit, name} <= table.keys()]
+            assert sizes and sizes == pytest.approx([10.0**power] * len(sizes)), (unit, name)
 
 
 @pytest.mark.parametrize("key, kind, power, name", TYPED, ids=lambda value: value if isinstance(value, str) else "")

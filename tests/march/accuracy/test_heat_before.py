@@ -1,17 +1,19 @@
 """The heat of the oil before the grid: what it is, and what the bars of the temperatures make of it."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from tehl_taichi.march.accuracy.domain_error import DomainError
+from tehl_taichi.march.accuracy.domain_error import _before as friction_before
 from tehl_taichi.march.accuracy.heat_before import heat_before
 from tehl_taichi.march.steady import solve_steady
-from tehl_taichi.pressure import fields
+from tehl_taichi.pressure import fields, inlet
 from tehl_taichi.pressure.inlet import Inlet
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.scales import Scales, load_of
 
 # a thick film that hardly slides: most of its heat is that of oil that flows back
 LIGHT = {"contact.hertz_pressure": 3.5e8, "speed": 8.0, "srr": 0.2, "temperature": 80.0, "grid.nx": 128, "grid.x_min": -4.5}
@@ -60,6 +62,22 @@ def test_the_faster_surface_is_warmed_less_and_one_at_rest_not_at_all():
     assert slow / fast == pytest.approx(math.sqrt(1.25 / 0.75)) and solver.levels.scene.operation.u_a < 8.0
     moving, rests = heat_before(solver := solved(light(srr=2.0)), Inlet(solver.levels))
     assert rests == 0.0 < moving
+
+
+@pytest.mark.parametrize("name", ["smooth-line", "ball-on-disc"])
+def test_friction_before_the_grid_is_the_shear_of_the_oil_there_over_the_load(name):
+    """Along the inlet in m; of a point contact over the width of the grid, on both sides of y = 0. Neither sign changes it."""
+    description = scene(name).replace(srr=0.2)
+    s, o = Scales.of(description), description.operation
+    shear, side = 0.012 * (o.u_a - o.u_b), 1.5 * s.b  # Pa m
+    far = inlet.far(-4.5, 12.0, float(s.line))
+    X = np.geomspace(4.5, 1e6, 400001)
+    h = (12.0 + (X**2 - 4.5**2) / 2 - s.line * np.log(X / 4.5) / 2) * s.h
+    friction = np.trapezoid(shear / h, X * s.a) * (1.0 if s.line else 2 * side) / load_of(description)
+    for slip in (o.u_a - o.u_b, o.u_b - o.u_a):
+        grid = SimpleNamespace(line=s.line, Y=np.linspace(0.0, side / s.a, 9), scales=s,
+                               conditions={"eta0": 0.012, "u_s": slip})
+        assert friction_before(grid, SimpleNamespace(far=lambda H: far), None) == pytest.approx(friction, rel=1e-5)
 
 
 def test_the_film_has_the_error_of_its_warmer_surface():
