@@ -15,8 +15,6 @@ def matrix(factor, nodes, points, mirrored=False, odd=False):
     antisymmetric one.
     """
     out = np.zeros(((nodes - 1) * factor + 1, nodes))
-    if nodes == 1:
-        return out + 1.0
     for fine, row in enumerate(out):
         cell, part = divmod(fine, factor)
         if part == 0:
