@@ -406,6 +406,22 @@ def test_a_failed_companion_takes_coarser_ones_with_it(passage):
     assert coarse_runs.judged([{"reason": "no"}, coarser], own)[0]["h_min_m"] is not None
 
 
+@pytest.mark.parametrize("share, p99, uncertain", [(0.0, 0.3, False), (0.0, 0.6, True), (0.01, 1.2, True), (0.01, 0.3, True)])
+def test_a_share_is_uncertain_by_two_of_its_points_unless_none_comes_near(share, p99, uncertain):
+    """1.5 times 4/3 points of 400; a percentile at the surface, which short waves raise, keeps a larger part as error."""
+    part = {"share_above_1": share, "p99": p99, "median": 0.2, "points": 400}
+    found = coarse_runs._spread_reading(part, "share_above_1")
+    assert 1.5 * found.blur == pytest.approx(2 / 400 if uncertain else 0.0) and found.value == share
+    assert all(not coarse_runs._spread_reading(part, key).blur for key in ("p99", "median"))
+    deep = coarse_runs._spread_reading({**part, "depth_m": 2e-5}, "p99").spread
+    assert coarse_runs._spread_reading(part, "p99").spread > deep == coarse_runs._spread_reading(part, "median").spread
+
+
+def test_steps_with_temperatures_are_more_work():
+    cold, warm = (short(**{"thermal.on": on}) for on in (False, True))
+    assert coarse_runs.heavy_work(warm) > 2 * coarse_runs.heavy_work(cold) == 2 * 65 * 17 * 4
+
+
 def test_who_gets_companions():
     auto = short(**{"numerics.estimate_error": "auto"})
     for description, expected in (
