@@ -77,7 +77,9 @@ def test_keys_that_change_together():
 
 @pytest.mark.parametrize("text, said", [
     ("srr", "must look like"), ("srr=", "must look like"), ("srr=0:1", "has no number of values"), ("srr=0,,1", "missing"),
-    ("srr=0.1,0.1", "given twice"), ("speed=0:1:5:log", "positive ends"), ("srr=0,1 speed=5", "srr has 2, speed has 1"),
+    ("srr=0.1,0.1", "given twice"), ("speed=0:1:5:log", "positive ends"), ("speed=1:-1:5:log", "positive ends"),
+    ("speed=1:0:5:log", "positive ends"), ("srr=0,1 speed=5:9", "speed = 5:9 has no number of values"),
+    ("srr=0:1 speed=5,9", "srr = 0:1 has no number of values"), ("srr=0,1 speed=5", "srr has 2, speed has 1"),
     ("srr=0:1:0", "2 to 100000 values"), ("srr=1:0", "smaller than the second"),
 ])
 def test_what_is_no_values_is_told(text, said):
