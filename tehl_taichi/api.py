@@ -57,17 +57,18 @@ def _opened(of):
 
 
 def _loaded(of):
-    """The scene of a name or a path; anything else unchanged."""
-    return scene(of) if isinstance(of, (str, PathLike)) else of
+    """The scene of a name, a path or a Run; anything else unchanged."""
+    return scene(of) if isinstance(of, (str, PathLike)) or hasattr(of, "scene") else of
 
 
-def scene(name: "Name | Scene" = "gear") -> "Scene":
+def scene(name: "Name | Scene | Run" = "gear") -> "Scene":
     """Load a scene: a built-in one, a TOML file, or the scene of a stored run.
 
     Parameters
     ----------
-    name : str, path or Scene
-        Name of a built-in scene (`tehl scenes` lists them), path of a TOML file or of a store. A Scene is returned unchanged.
+    name : str, path, Scene or Run
+        Name of a built-in scene (`tehl scenes` lists them), path of a TOML file or of a store. A Scene is returned unchanged,
+        a Run gives its scene.
 
     Returns
     -------
@@ -410,9 +411,9 @@ def stresses(pressure: Any, traction_x: Any = None, traction_y: Any = None, dx: 
     traction_x, traction_y : array like `pressure`, optional
         Shear tractions on this body in Pa; default: none. A line contact has no traction_y.
     dx, dy : float
-        Distances of the nodes along x and y in m; dy of two-dimensional loads only (default: dx).
+        Distances of the nodes along x and y in m, or text as "10 um"; dy of two-dimensional loads only (default: dx).
     depths : float or sequence of float
-        Depths in m; 0 is the surface.
+        Depths in m, or texts as "10 um"; 0 is the surface.
     nu : float
         Poisson's ratio.
 
@@ -835,7 +836,8 @@ def export(of: "Name | Run", format: str = "csv", path: Name | None = None, *, a
     at : float or sequence of float
         csv: positions of the feature in half-widths a for the centrelines; default: 0.
     point : (x, y) or sequence of (x, y)
-        csv: points of the surface with the first feature, whose history is written; m, measured as feature.x and feature.y.
+        csv: points of the surface with the first feature, whose history is written; m, or text as "10 um", measured as
+        feature.x and feature.y.
     force : bool
         Replace an earlier export.
 
@@ -875,7 +877,7 @@ def report(of: Any, out: Name | None = None, *, force: bool = False, progress: A
     of : Run, Study, Flank, Bearing, Cam or path
         The results or their folder.
     out : path, optional
-        The file; default: beside the folder, with the ending .html.
+        The file, with the ending .html or none; default: beside the folder.
     pages : bool
         Of a flank or a cam: also write the page of every position, beside its store.
     force : bool
@@ -896,7 +898,7 @@ def report(of: Any, out: Name | None = None, *, force: bool = False, progress: A
     StoreError
         No results in the folder, no run where constants are given, jinja2 or plotly missing, or the file exists.
     SceneError
-        A constant is out of range.
+        A constant is out of range, or `out` has the ending of another format.
 
     Examples
     --------
@@ -928,9 +930,9 @@ def animate(source: "Name | Run", out: Name | None = None, *, format: str | None
     fps : int
         Frames per second, 1 to 50.
     dpi : int
-        Dots per inch.
+        Dots per inch, 40 to 1200.
     width : float
-        Width in cm.
+        Width in cm, 5 to 60, or text as "170 mm".
     shown : {"film", "pressure", "temperature"}
         The map.
     force : bool

@@ -82,6 +82,10 @@ class SceneError(Error, ValueError):
     exit_code = BAD_INPUT
 
 
+class NoArithmetic(SceneError, TypeError):
+    """A Quantity was used in place of its value."""
+
+
 class StoreError(Error):
     """The store cannot be used in this way; the message says why."""
 

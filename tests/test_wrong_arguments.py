@@ -5,6 +5,7 @@ import pickle
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import tehl_taichi as tehl
@@ -28,6 +29,9 @@ LINE = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
     (lambda path: tehl.fatigue([[1e8] * 6], until=0.0), "until = 0.0 has no effect on given stresses"),
     (lambda path: tehl.run(LINE, "a\0b"), "is not a path"),
     (lambda path: tehl.sweep(LINE, {"srr": [0.0]}, path, progress=3), "progress = 3 is no function; allowed: a function"),
+    (lambda path: tehl.sweep(LINE, {"srr": [0.0]}, path, scheduler=3), "scheduler = 3 is no scheduler; allowed: its address"),
+    (lambda path: tehl.traction(LINE, srr=None), "srr = None is no list; allowed: numbers, or text"),
+    (lambda path: tehl.compare([path, path]), "is a list; give its results one by one"),
     (lambda path: tehl.flank(folder=path, changes=3), "changes = 3 must be a dictionary {key: value}"),
     (lambda path: tehl.traction(LINE, path=path, changes=3), "changes = 3 must be a dictionary {key: value}"),
     (lambda path: tehl.Flank(path, {}).plot(3), "path = 3 is not a path"),
@@ -181,3 +185,73 @@ print(sorted(map(str, found)))
 """
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert out.strip() == "['1', 'elsewhere', 'elsewhere']"
+
+
+@pytest.mark.parametrize("operation", [
+    lambda p: p / 1e9, lambda p: 2 * p, lambda p: p + p, lambda p: p > 1.0, lambda p: -p, abs, int, round, np.sqrt,
+    lambda p: np.ones(2) * p, lambda p: p**2])
+def test_operators_on_a_quantity_are_refused_with_the_way_out(operation):
+    """The error and the unit would be lost without a word."""
+    pressure = tehl.Quantity(3e9, 2e7, "Pa", name="transient.p_max_Pa")
+    with pytest.raises(TypeError, match=r"p_max_Pa has an error and a unit: calculate with its `.value` \(Pa\)") as it:
+        operation(pressure)
+    assert isinstance(it.value, tehl.Error) and float(pressure) == pressure.value and f"{pressure:.1e}" == "3.0e+09"
+
+
+@pytest.mark.parametrize("given, plain", [
+    ({"dx": "20 um"}, {"dx": 2e-5}), ({"depths": "10 um"}, {"depths": 1e-5}), ({"nu": "25 %"}, {"nu": 0.25}),
+    ({"depths": ["0.01 mm", 0.0]}, {"depths": [1e-5, 0.0]}), ({"dx": tehl.Quantity(2e-5, None, "m")}, {"dx": 2e-5}),
+    ({"pressure": [[1e9] * 3] * 4, "dy": "3e4 nm"}, {"pressure": [[1e9] * 3] * 4, "dy": 3e-5})])
+def test_numbers_of_stresses_may_have_units(given, plain):
+    """As the values of a scene."""
+    usual = {"pressure": [1e9, 2e9, 0.0], "dx": 1e-5}
+    assert np.array_equal(tehl.stresses(**{**usual, **given}), tehl.stresses(**{**usual, **plain}))
+
+
+@pytest.mark.parametrize("given, words", [
+    ({"dx": "10 kg"}, "dx = '10 kg': 'kg' is no unit of it; allowed: a number in m"), ({"dx": "x"}, "dx = 'x' is not a number"),
+    ({"depths": "1 Pa"}, "depths = '1 Pa': 'Pa' is no unit of it"), ({"depths": [1e-5, None]}, "depths = None is not a number"),
+    ({"depths": []}, "depths is empty"), ({"depths": [[0.0]]}, r"depths = \[0.0\] is not a number"),
+    ({"depths": -1e-6}, "depths = -1e-06 m is out of range"), ({"nu": "1 m"}, "nu = '1 m': 'm' is no unit of it")])
+def test_wrong_units_of_stresses(given, words):
+    with pytest.raises(tehl.SceneError, match=words):
+        tehl.stresses(**{"pressure": [1e9, 2e9, 0.0], "dx": 1e-5, **given})
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+def test_positions_points_and_widths_may_have_units(tmp_path):
+    """Of exports, figures, animations and the fatigue search."""
+    pytest.importorskip("matplotlib")
+    scene = tehl.scene("gear").replace(**{"grid.nx": 32, "grid.ny": 8, "thermal.on": False, "time.steps": 4})
+    run = tehl.run(scene, tmp_path / "gear.zarr")
+    at = float(run.store.scalar("feature_x")[2]) / run["hertz.a"].value
+    texts = run.export("csv", tmp_path / "texts", at=f"{at} a", point=[("20 um", "0 mm"), (0.0, 0.0)])
+    numbers = run.export("csv", tmp_path / "numbers", at=at, point=[(2e-5, 0.0), (0.0, 0.0)])
+    assert {one.name: one.read_bytes() for one in texts.iterdir()} == {one.name: one.read_bytes() for one in numbers.iterdir()}
+    films = [run.animate(tmp_path / f"{n}.gif", width=wide, frames=2, dpi=40) for n, wide in enumerate((8.0, "80 mm", "8 cm"))]
+    assert len({film.read_bytes() for film in films}) == 1
+    assert run.fatigue(until=f"{at} a").summary == run.fatigue(until=at).summary
+    for wrong, words in ((lambda: run.export("csv", at="1 mm"), "at = '1 mm': 'mm' is no unit"), (
+            lambda: run.animate(width="8 kg"), "width = '8 kg': 'kg' is no unit of it; allowed: a number in cm"),
+            (lambda: run.plot(width="1 m"), "width = 100 cm is out of range"), (lambda: run.plot(at="x"), "at = 'x' is not a"),
+            (lambda: run.animate(shown="x"), "shown = 'x' is not known"), (
+            lambda: tehl.report(run, "page.pdf"), "page.pdf ends in .pdf, and a report is a page of HTML")):
+        with pytest.raises(tehl.SceneError, match=words):
+            wrong()
+
+
+def test_what_holds_runs_names_them(tmp_path):
+    """Wherever a run is needed."""
+    study = tehl.sweep(LINE, {"srr": [0.0]}, tmp_path / "study.zarr", keep="summary", workers=1)
+    bearing = tehl.bearing("6206", load="5 kN", speed=3000, run=False, folder=tmp_path / "b")
+    for of, words in ((study.path, "is a study: .*cases/NUMBER.zarr"), (bearing.folder, "is a bearing: .*NAME-inner.zarr")):
+        for call in (tehl.export, tehl.animate, tehl.resume, tehl.zoom, tehl.scene, tehl.fatigue, tehl.crack):
+            with pytest.raises(tehl.StoreError, match=words):
+                call(of)
+
+
+@pytest.mark.usefixtures("taichi_cpu")
+def test_a_run_gives_its_scene(tmp_path):
+    run = tehl.run(LINE, tmp_path / "line.zarr")
+    assert tehl.scene(run) == tehl.scene(run.path) == run.scene
+    assert tehl.simulate(run)[0].scalars["h_c_m"] == tehl.simulate(LINE)[0].scalars["h_c_m"]

@@ -27,8 +27,7 @@ from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.worst_point import worst_of
 from tehl_taichi.scene import SceneError, fatigue_limits, rough_surfaces
-from tehl_taichi.values.checks import number
-from tehl_taichi.values.coerce import plain
+from tehl_taichi.values.units import amount
 
 NO_BOXES = MappingProxyType({})  # all points are searched
 PIT_ANGLES = (18.0, 50.0)  # degrees to the surface at which pits begin (Everitt 2018)
@@ -78,6 +77,7 @@ def run(scene, reader, progress=None, until=None, alone=True, sought=Sought.ALL,
     Memory: one block of histories (at most 1 GB); thermal stress needs 8 bytes more per entry and wave number (one wave number
     per 4 nodes of the grid). Raises SceneError if no feature passes.
     """
+    until = None if until is None else amount("until", until, "a", infinite=True)
     reader = Snapshots(reader) if isinstance(reader, (list, tuple)) else reader
     centres = np.array([reader.feature_x(n) for n in range(len(reader))])
     if len(reader) < 2 or not np.isfinite(centres).all():
@@ -148,7 +148,6 @@ def _early(passage, until):
     """
     if until is None:
         return None
-    number("until", plain(until), "a", infinite=True)
     first = np.flatnonzero(passage.positions <= (until + 1e-9) * passage.a)
     return np.append(first, passage.positions.size) if 1 < first.size < passage.positions.size else None
 

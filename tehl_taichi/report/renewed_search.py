@@ -9,12 +9,13 @@ from tehl_taichi.report import run_page
 from tehl_taichi.report.number_text import value_text
 from tehl_taichi.report.scene_text import moments
 from tehl_taichi.report.verdict import FATIGUE
-from tehl_taichi.runs.open_results import INSIDE, RUN, kind, open_run
+from tehl_taichi.runs.open_results import RUN, kind, open_run
 from tehl_taichi.runs.summary import life, result_warnings
 from tehl_taichi.scene import fatigue_limits, left_out, scene_file
 from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.scene.strength import scene_tables
 from tehl_taichi.scene.timeline import total_steps
+from tehl_taichi.store.sets_of_runs import INSIDE
 
 
 class RenewedSearch:

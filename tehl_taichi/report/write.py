@@ -7,7 +7,10 @@ from typing import Any
 from tehl_taichi.disk import user_files
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.checks import callback, flag
+from tehl_taichi.values.file_ending import ending
 from tehl_taichi.values.path_arguments import folder_of, path_of
+
+OTHERS = ".pdf", ".png", ".svg", ".gif", ".mp4", ".nc", ".csv", ".json", ".md", ".txt", ".docx"  # endings of other formats
 
 
 def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force: bool = False, progress: Any = None,
@@ -20,7 +23,7 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
     callback("progress", progress, "stage")
     folder = folder_of(of)
     search = _renewed_search(folder, constants)
-    target = path_of("out", out) if out else default_page(folder, "-fatigue" if search else "")
+    target = _page_file(out) if out else default_page(folder, "-fatigue" if search else "")
     user_files.check(target, force, "html")
     embed.check_installed()
     if pages:
@@ -28,6 +31,14 @@ def report(of: str | PathLike | Any, out: str | PathLike | None = None, *, force
     page = search.page(progress, threads) if search else page_of(folder, target)
     user_files.text(target, document.render(page), force, kind="html")
     return target
+
+
+def _page_file(out):
+    """Path of a page that the caller names. Raises SceneError for the ending of another format."""
+    path = path_of("out", out)
+    if (end := ending(path)) in OTHERS:
+        raise SceneError(f"out = {path} ends in {end}, and a report is a page of HTML; allowed: the ending .html, or none")
+    return path
 
 
 def _renewed_search(folder, constants):

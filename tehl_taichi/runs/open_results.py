@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tehl_taichi.errors import StoreError
+from tehl_taichi.store import sets_of_runs
+from tehl_taichi.store.sets_of_runs import BEARING, CAM, FLANK, STUDY
 from tehl_taichi.values.path_arguments import folder_of
 
 if TYPE_CHECKING:
@@ -16,9 +18,7 @@ if TYPE_CHECKING:
     from tehl_taichi.runs.stored_run import Run
     from tehl_taichi.runs.sweep.study_table import Study
 
-RUN, STUDY, FLANK, BEARING, CAM = "run", "study", "flank", "bearing", "cam"
-INSIDE = {STUDY: ("table.csv", "cases/NUMBER.zarr"), FLANK: ("flank.csv", "POSITION.zarr"),
-          BEARING: ("bearing.csv", "NAME-inner.zarr"), CAM: ("cam.csv", "ANGLE.zarr")}  # table, stores of its runs
+RUN = "run"
 
 
 def kind(path: str | PathLike) -> str:
@@ -54,8 +54,7 @@ def open_run(path: str | PathLike) -> "Run":
     """Open the run in the store at `path`. Raises StoreError, which names the runs of a study, flank, bearing or cam."""
     if (found := kind(path)) == RUN:
         return _run(path)
-    table, store = (Path(path) / part for part in INSIDE[found])
-    raise StoreError(f"{path} is a {found}: its table is {table}; use the store of one of its runs, {store}")
+    raise StoreError(sets_of_runs.refusal(path, found))
 
 
 def _run(path, stand_in=False):

@@ -18,7 +18,7 @@ from tehl_taichi.laws.hardening import HARDENINGS
 from tehl_taichi.laws.hardness import RELATIONS
 from tehl_taichi.scene.feature import SHAPES
 from tehl_taichi.scene.sections import NEWER, SECTIONS
-from tehl_taichi.store import attributes, stored_maps
+from tehl_taichi.store import attributes, sets_of_runs, stored_maps
 from tehl_taichi.values.checks import near_file
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.escape import typed
@@ -61,16 +61,22 @@ def root_of(path):
         arrays = root["consolidated_metadata"]["metadata"]
     except FileNotFoundError:
         why = f"it has no {ROOT}" if os.path.isdir(path) else f"the folder does not exist{near_file(path)}"
-        raise StoreError(f"{path} is not a store of tehl run: {why}") from None
+        raise _no_store(path, why) from None
     except OSError as error:
         raise StoreError(f"{path} is not a store of tehl run: {error.strerror or error}") from None
     except (ValueError, KeyError, TypeError, RecursionError):
         raise StoreError(f"{path} is not a store of tehl run: its {ROOT} is not that of a store") from None
     if not isinstance(attrs, dict) or "scene" not in attrs or not isinstance(arrays, dict):
-        raise StoreError(f"{path} is not a store of tehl run: its {ROOT} describes no scene")
+        raise _no_store(path, f"its {ROOT} describes no scene", attrs)
     if any(name != Path(name).name for name in arrays):
         raise damage_error(path, "one of its arrays lies outside")
     return attrs, arrays
+
+
+def _no_store(path, why, attrs=None):
+    """Error about a folder that is no store; of other results of tehl it names the stores inside."""
+    found = sets_of_runs.kind_of(path, attrs)
+    return StoreError(sets_of_runs.refusal(path, found) if found else f"{path} is not a store of tehl run: {why}")
 
 
 def scene_of(path, attrs):

@@ -2,6 +2,7 @@
 
 import os
 from pathlib import Path
+from typing import Any
 
 from tehl_taichi.scene import BUILT_INS, Scene, SceneError
 from tehl_taichi.scene.builtin import scene as built_in
@@ -10,7 +11,7 @@ from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.file_ending import ending
 
 
-def find(name: str | os.PathLike | Scene = "gear") -> Scene:
+def find(name: Any = "gear") -> Scene:
     """Load a scene: see :func:`tehl_taichi.scene`."""
     return find_changed(name, {})
 
@@ -21,6 +22,7 @@ def find_changed(name, changes):
     """
     from tehl_taichi.scene import scene_file
 
+    name = getattr(name, "scene", name)  # of a Run
     if not isinstance(name, (str, os.PathLike, Scene)) or name == "":
         raise SceneError(f"{shown(name)} is not a scene; allowed: a Scene, a built-in name, a TOML file or a store")
     if not isinstance(name, Scene) and name not in BUILT_INS and _is_file(Path(name)):
@@ -40,15 +42,15 @@ def named_in(file, data):
 
 
 def _is_file(path):
-    return ending(path) == ".toml" or os.path.exists(path) and not _is_store(path)
-
-
-def _is_store(path):
-    return os.path.isdir(path) and os.path.exists(path / "zarr.json")
+    return ending(path) == ".toml" or os.path.exists(path) and not os.path.isdir(path)
 
 
 def _stored(path):
-    """Scene of the store at `path`, None if no store is there. Raises StoreError for a damaged one."""
+    """Scene of the store at `path`, None if no folder is there, or one with the name of a built-in scene. Raises StoreError for
+    another folder.
+    """
     from tehl_taichi.store import integrity
 
-    return integrity.scene_of(path, integrity.root_of(path)[0]) if _is_store(path) else None
+    if not os.path.isdir(path) or str(path) in BUILT_INS and not os.path.exists(path / "zarr.json"):
+        return None
+    return integrity.scene_of(path, integrity.root_of(path)[0])

@@ -3,7 +3,11 @@
 import math
 from dataclasses import dataclass
 
+from tehl_taichi.errors import NoArithmetic
 from tehl_taichi.values.digits import printed_unit, with_error
+
+REFUSED = ("add", "radd", "sub", "rsub", "mul", "rmul", "truediv", "rtruediv", "floordiv", "rfloordiv", "mod", "rmod", "divmod",
+           "rdivmod", "pow", "rpow", "neg", "pos", "abs", "int", "round", "trunc", "lt", "le", "gt", "ge", "array_ufunc")
 
 
 @dataclass(frozen=True)
@@ -33,6 +37,15 @@ class Quantity:
     (3114000000.0, True)
     >>> print(tehl.Quantity(3.114e9, None, "Pa", "a peak of 8% is only a few cells wide"))
     3.114 GPa, error unknown (a peak of 8% is only a few cells wide)
+
+    Calculate with the parts; operators are refused:
+
+    >>> p.value / 1e9
+    3.114
+    >>> p / 1e9
+    Traceback (most recent call last):
+    ...
+    tehl_taichi.errors.NoArithmetic: transient.p_max_Pa has an error and a unit: calculate with its `.value` (Pa) and `.error`
     """
 
     value: float
@@ -64,3 +77,13 @@ class Quantity:
 
     def __repr__(self):
         return f"<{self.name or 'Quantity'}: {self}>"
+
+    def _refuse(self, *_, **__):
+        """Refuse an operator, which would have to guess what becomes of the error and the unit."""
+        unit = f" ({self.unit})" if self.unit else ""
+        name = self.name or "a Quantity"
+        raise NoArithmetic(f"{name} has an error and a unit: calculate with its `.value`{unit} and `.error`")
+
+
+for operator in REFUSED:
+    setattr(Quantity, f"__{operator}__", Quantity._refuse)

@@ -5,7 +5,7 @@ import re
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values import checks
-from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.coerce import plain, shown
 
 LENGTH = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "in": 25.4e-3}
 PRESSURE = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "N/mm2": 1e6, "bar": 1e5, "psi": 6894.757293168361}
@@ -14,6 +14,7 @@ ANGLE = {"deg": 1.0, "degrees": 1.0, "rad": 180 / math.pi}
 # {declared unit: {unit that people write: its size in the declared one}}
 UNITS = {
     "m": LENGTH, "mm": {name: size * 1e3 for name, size in LENGTH.items()},
+    "cm": {name: size * 1e2 for name, size in LENGTH.items()},
     "µm": {name: size * 1e6 for name, size in LENGTH.items()},
     "m2": {"m2": 1.0, "cm2": 1e-4, "mm2": 1e-6}, "m3": {"m3": 1.0, "cm3": 1e-6, "mm3": 1e-9},
     "Pa": PRESSURE, "1/Pa": {"1/Pa": 1.0, "1/MPa": 1e-6, "1/GPa": 1e-9, "mm2/N": 1e-6}, "1/Pa^2": {"1/Pa2": 1.0},
@@ -58,6 +59,19 @@ def in_unit(where, value, unit):
     if radius is not None:
         raise _refused(where, value, f"at {radius} {of_radius}", unit)
     return _converted(where, value, digits, name, unit)
+
+
+def amount(where, value, unit, low=-math.inf, high=math.inf, **limits):
+    """Number in `unit` of an argument: a number, also of numpy, a text with a unit, or a Quantity. Raises SceneError.
+
+    low, high, limits: as for :func:`tehl_taichi.values.checks.number`.
+
+    >>> amount("dx", "10 um", "m", 0.0, 1.0)
+    1e-05
+    """
+    found = in_unit(where, plain(value), unit)
+    checks.number(where, found, unit, low, high, **limits)
+    return float(found)
 
 
 def known(name, unit):

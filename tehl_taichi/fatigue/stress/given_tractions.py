@@ -6,8 +6,8 @@ from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.stress.half_space import COMPONENTS, HalfSpaceStress
 from tehl_taichi.scene import memory_demand
 from tehl_taichi.values.arrays import floats
-from tehl_taichi.values.checks import number
-from tehl_taichi.values.coerce import plain, shown
+from tehl_taichi.values.coerce import listed, plain, shown
+from tehl_taichi.values.units import amount
 
 LARGEST, FARTHEST = 1e12, 1e3  # Pa, m: no load and no distance of nodes is larger
 
@@ -17,12 +17,12 @@ def stresses(pressure, traction_x, traction_y, dx, dy, depths, nu):
     loads = _loads(pressure, traction_x, traction_y)
     line = loads.ndim == 2
     dx, dy = _step("dx", dx), _step_across(dx, dy, line)
-    number("nu", plain(nu), "", 0.0, 0.5)
+    nu = amount("nu", nu, "", 0.0, 0.5)
     z = _depths(depths)
     memory_demand.check_stresses(loads.shape[1:], z.size)
     fields = loads[:, :, None] if line else loads
     x, y = np.arange(fields.shape[1]) * dx, np.arange(fields.shape[2]) * dy
-    found = np.stack([_at(fields, x, y, float(nu), line, depth) for depth in z.ravel()], axis=2)
+    found = np.stack([_at(fields, x, y, nu, line, depth) for depth in z.ravel()], axis=2)
     found = found[:, 0] if line else found
     return found if z.ndim else found[..., 0, :]
 
@@ -67,12 +67,13 @@ def _array(name, values):
 def _step(name, value):
     if value is None:
         raise SceneError(f"{name} is missing: the distance of the nodes in m")
-    number(name, plain(value), "m", 0.0, FARTHEST, strict=True)
-    return float(value)
+    return amount(name, value, "m", 0.0, FARTHEST, strict=True)
 
 
 def _depths(depths):
-    found = floats("depths", depths, "real numbers in m")
-    if found.ndim > 1 or found.size == 0 or not ((found >= 0) & np.isfinite(found)).all():
-        raise SceneError(f"depths = {shown(depths)} must be one or more finite numbers >= 0 in m")
-    return found
+    """Depths (m) as an array, of no dimension for a single one. Raises SceneError."""
+    given = plain(depths)
+    found = [amount("depths", depth, "m", 0.0, FARTHEST) for depth in listed(given)]
+    if not found:
+        raise SceneError("depths is empty; allowed: one or more numbers in m")
+    return np.array(found if isinstance(given, tuple) else found[0])

@@ -27,10 +27,10 @@ from tehl_taichi.scene.film_formula import formula_words, heated_film, spread
 from tehl_taichi.scene.scales import reduced_modulus
 from tehl_taichi.store.json_values import plain
 from tehl_taichi.store.load_scene import find
-from tehl_taichi.values.checks import choice, flag, number, table
+from tehl_taichi.values.checks import choice, flag, table
 from tehl_taichi.values.coded_warning import lists
 from tehl_taichi.values.path_arguments import path_of
-from tehl_taichi.values.units import in_unit
+from tehl_taichi.values.units import amount
 
 ASSUMPTIONS = ("rings keep their shape and do not tilt", "elements roll without gross slip",
                "centrifugal forces are left out")
@@ -61,8 +61,7 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     pool.check_numbers(workers, threads, "--threads")
     table("dimensions", dimensions or {}, "{key: value}, as in {'clearance': 10e-6}")
     if roughness is not None:
-        roughness = in_unit("roughness", roughness, "m")
-        number("roughness", roughness, "m", 1e-10, 1e-4, usual=1e-7)
+        roughness = amount("roughness", roughness, "m", 1e-10, 1e-4, usual=1e-7)
     found = bearing_source(what, {**(dimensions or {}), "load": load, "axial": axial, "speed": speed})
     start = find(scene) if scene is not None else found.scene or find()
     base = ring_scenes.base_of(start, feature)

@@ -5,8 +5,9 @@ import itertools
 import uuid
 from typing import Any
 
-from tehl_taichi.errors import RuntimeUnavailable, StoreError, brief, extra
+from tehl_taichi.errors import RuntimeUnavailable, SceneError, StoreError, brief, extra
 from tehl_taichi.runs.sweep.job import DIED, LostJob, failed, in_one_thread
+from tehl_taichi.values.coerce import shown
 
 AHEAD, LEAST = 3, 16  # jobs that the scheduler knows, for each worker and at least: memory stays bounded, no worker waits
 PATIENCE = 30  # s to find a scheduler
@@ -46,6 +47,8 @@ def results(work, jobs, scheduler, say_line):
 def check(scheduler):
     """Raise the errors that :func:`results` would raise before its first job."""
     distributed = _distributed()
+    if not isinstance(scheduler, str) and not callable(getattr(scheduler, "nthreads", None)):
+        raise SceneError(f"--scheduler = {shown(scheduler)} is no scheduler; allowed: its address, or a distributed.Client")
     if isinstance(scheduler, str):
         _connected(distributed, scheduler).close()
 

@@ -13,7 +13,7 @@ from tehl_taichi.scene import Scene, aliases, idle_keys
 from tehl_taichi.scene.unit_texts import column_in_units
 from tehl_taichi.values.checks import table
 from tehl_taichi.values.coded_warning import counted, lists
-from tehl_taichi.values.coerce import shown
+from tehl_taichi.values.coerce import plain, shown
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.quantity import kinds
 
@@ -236,7 +236,7 @@ def _axis(scene, keys, rows):
     if isinstance(keys, str):
         return axis_syntax.axis([keys], [_numbers(scene, keys, axis_syntax.column(rows))])
     try:
-        rows = [axis_syntax.column(list(row)) for row in rows]
+        rows = [axis_syntax.column(list(row)) for row in plain(rows)]
     except TypeError:  # a number in place of a row, or of the rows
         rows = [[]]
     if any(len(row) != len(keys) for row in rows):

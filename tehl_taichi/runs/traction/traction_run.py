@@ -40,6 +40,8 @@ def traction_plan(scene, srr=SRRS, temperature=None, speed=None, changes=None, l
     Temperatures are computed in all cases unless switched off, also in pure rolling, so that one curve compares like with like.
     """
     table("changes", changes or {}, CHANGES)
+    if srr is None:
+        raise SceneError(f"srr = None is no list; allowed: numbers, or text, as {SRRS!r}")
     changes = {full_name(key): value for key, value in (changes or {}).items()}
     given = {TEMPERATURE: temperature, LOAD: load, PRESSURE: hertz_pressure, SPEED: speed, SRR: srr}
     swept = {key: axis_syntax.column(values) for key, values in given.items() if values is not None}

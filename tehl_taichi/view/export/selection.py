@@ -6,8 +6,8 @@ import numpy as np
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.values.checks import number
 from tehl_taichi.values.coerce import plain, shown
+from tehl_taichi.values.units import amount
 
 BEYOND = 0.5  # steps that a position may lie beyond the stored passage: its nearest entry still is the nearest of all steps
 
@@ -30,7 +30,8 @@ class Selection:
         points = point if several else (point,)
         if not at and len(reader) > 1:
             at = (min(max(0.0, _passed(reader)[0]), _passed(reader)[-1]),)
-        return cls({position: _entry(reader, position) for position in at}, tuple(_point(reader, one) for one in points))
+        positions = [amount("at", position, "a", -1e3, 1e3) for position in at]
+        return cls({position: _entry(reader, position) for position in positions}, tuple(_point(reader, one) for one in points))
 
 
 def _passed(reader):
@@ -39,7 +40,6 @@ def _passed(reader):
 
 
 def _entry(reader, at):
-    number("at", at, "a", -1e3, 1e3)
     if len(reader) < 2:
         raise SceneError(f"at = {at:g} a: {reader.path} has no passage, only the steady contact")
     passed = _passed(reader)
@@ -52,6 +52,6 @@ def _entry(reader, at):
 def _point(reader, point):
     if not isinstance(point, tuple) or len(point) != 2:
         raise SceneError(f"point = {shown(point)} must be two numbers, x and y in m")
-    number("x of a point", point[0], "m", -0.1, 0.1, usual=1e-4)
-    number("y of a point", point[1], "m", float(reader.y[0]), float(reader.y[-1]), usual=1e-4)
-    return point
+    low, high = float(reader.y[0]), float(reader.y[-1])
+    return (amount("x of a point", point[0], "m", -0.1, 0.1, usual=1e-4),
+            amount("y of a point", point[1], "m", low, high, usual=1e-4))

@@ -33,7 +33,7 @@ def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, 
 
     integer("frames", frames, 2, 2000)
     integer("fps", fps, 1, 50)
-    choice("map", shown, SHOWN)
+    choice("--map", shown, SHOWN)
     flag("force", force)
     callback("progress", progress)
     page, store = FigureStyle(dpi=dpi, width=width), Store.open(folder_of(source))

@@ -11,10 +11,10 @@ import numpy as np
 from tehl_taichi.disk import links, user_files
 from tehl_taichi.disk.files import reason, store_error
 from tehl_taichi.errors import SceneError, StoreError, extra
-from tehl_taichi.values.checks import choice, flag, integer, number
-from tehl_taichi.values.coerce import plain
+from tehl_taichi.values.checks import choice, flag, integer
 from tehl_taichi.values.escape import printable
 from tehl_taichi.values.path_arguments import path_of
+from tehl_taichi.values.units import amount
 from tehl_taichi.view.figures import palette
 
 FORMATS = ("png", "pdf", "svg")
@@ -47,14 +47,14 @@ class FigureStyle:
         choice("format", self.format, FORMATS)
         integer("dpi", self.dpi, 40, 1200)
         flag("force", self.force)
-        number("width", plain(self.width), "cm", 5.0, 60.0)
+        object.__setattr__(self, "width", amount("width", self.width, "cm", 5.0, 60.0))
         if self.width / INCH * self.dpi > DOTS:
             raise SceneError(f"width = {self.width:g} cm with dpi = {self.dpi} gives {self.width / INCH * self.dpi:.0f} dots; "
                              f"allowed: at most {DOTS}")
 
     @property
     def inches(self):
-        return float(self.width) / INCH
+        return self.width / INCH
 
     @property
     def text(self):

@@ -9,8 +9,7 @@ import numpy as np
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.values.checks import number
-from tehl_taichi.values.coerce import plain
+from tehl_taichi.values.units import amount
 from tehl_taichi.view.figures import palette
 
 POSITIONS = (-0.8, 0.0, 0.8)  # of the feature, a: shown by default
@@ -36,7 +35,8 @@ class Moments:
         if self.store.steps < 2:
             raise SceneError(f"at = {self.at} a is a position of the feature, but {self.store.path} has only a steady state")
         low, high = self.moved.min(), self.moved.max()
-        number("at", plain(self.at), "a", round(low - BEYOND, 2), round(high + BEYOND, 2))
+        at = amount("at", self.at, "a", round(low - BEYOND, 2), round(high + BEYOND, 2))
+        object.__setattr__(self, "at", at)
 
     @cached_property
     def a(self):

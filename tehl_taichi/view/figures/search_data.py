@@ -10,17 +10,14 @@ from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.scene.feature_wording import feature_word, from_centre, position_word
 from tehl_taichi.scene.scales import Scales
-from tehl_taichi.values.checks import number
-from tehl_taichi.values.coerce import plain
-from tehl_taichi.values.units import in_unit
+from tehl_taichi.values.units import amount
 from tehl_taichi.view.figures.index_text import REST, resolved_words
 
 
 def in_micrometres(depth):
     """A depth in µm, also of a text with a unit; None: no choice. Raises SceneError."""
     if depth is not None:
-        depth = in_unit("depth", plain(depth), "µm")
-        number("depth", depth, "µm", 0.01, 3e4, usual=100.0)
+        depth = amount("depth", depth, "µm", 0.01, 3e4, usual=100.0)
     return depth
 
 
