@@ -57,8 +57,7 @@ def _life(summary):
     if "life" not in summary:
         return ()
     found = summary["life"]
-    where = f"{micrometres(found['depth_m'])} µm below surface" if found["depth_m"] else "at surface"
-    return (f"Initiation {where} {found['surface']}{over(found.get('length_m', 0.0))}: {life.words(found)}.",)
+    return (f"Initiation {life.place(found)}{over(found.get('length_m', 0.0))}: {life.words(found)}.",)
 
 
 def _read_first(warnings):

@@ -3,9 +3,10 @@
 import math
 
 from tehl_taichi.fatigue import judged_layers
-from tehl_taichi.fatigue.pressure_alone import why_none
+from tehl_taichi.fatigue.pressure_alone import searched, why_none
 from tehl_taichi.values.coded_text import reasons_of, unknown_of
-from tehl_taichi.values.digits import with_error
+from tehl_taichi.values.digits import micrometres, with_error
+from tehl_taichi.values.summary_values import error_of
 
 LEAST = 1e-9  # of an index, below which no number of passages is of use
 
@@ -24,7 +25,23 @@ def of_searches(searches, fatigue):
     return {"passages": passages, "exponent": fatigue.exponent, "limit_cycles": fatigue.limit_cycles, "Fi": point.Fi,
             "surface": point.surface, "depth_m": point.depth, "length_m": point.length, "resolved": early,
             "error": {"passages": bar(passages, point.Fi, point.error, fatigue.exponent)},
-            **unknown_of({"passages": reasons[point.key]} if point.key in reasons else {})}
+            **unknown_of({"passages": reasons[point.key]} if point.key in reasons else {}),
+            **_of_load(searches, fatigue, point.Fi)}
+
+
+def _of_load(searches, fatigue, Fi):
+    """{"contact_alone": part "life" of the worse smooth contact} if its index is larger than Fi by more than its error, so that
+    the load alone initiates a crack earlier; else {}.
+    """
+    found = [(name, one) for name, part in searches.items() if (one := searched(part).get("contact_alone"))]
+    name, alone = max(found, key=lambda named: named[1]["Fi_max"], default=("", {}))
+    error = error_of(alone, "Fi_max")
+    if error is None or alone["Fi_max"] - error <= Fi:
+        return {}
+    passages = fatigue.limit_cycles * alone["Fi_max"]**-fatigue.exponent
+    return {"contact_alone": {"passages": passages, "exponent": fatigue.exponent, "limit_cycles": fatigue.limit_cycles,
+                              "Fi": alone["Fi_max"], "surface": name, "depth_m": alone["depth_m"],
+                              "error": {"passages": bar(passages, alone["Fi_max"], error, fatigue.exponent)}}}
 
 
 def part(searches, fatigue):
@@ -55,10 +72,18 @@ def number(life):
     return f"{limit * (life['Fi'] + Fi_error) ** -m:.2g} to {passages + error:.2g}"
 
 
+def place(life):
+    """Text of the place of a part "life"."""
+    where = f"{micrometres(life['depth_m'])} µm below surface" if life["depth_m"] else "at surface"
+    return f"{where} {life['surface']}"
+
+
 def words(life):
     """Text such as 'after 5.3e5 ± 0.4e5 passages', without a subject, for a part "life" of a summary."""
     slope = f"by the exponent {life['exponent']:g} of the S-N curve"
     most = "; pressures that the grid does not resolve can only lower the number" * life.get("resolved", False)
+    if alone := life.get("contact_alone"):
+        most += f"; by the load alone, without any feature, {place(alone)} after {number(alone)}"
     if life["Fi"] < 1:
         return f"below the limit, which stands for {life['limit_cycles']:.3g} passages; {slope} after {number(life)}{most}"
     return f"after {number(life)} passages, {slope}{most}"

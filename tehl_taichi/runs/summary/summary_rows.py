@@ -126,7 +126,11 @@ def _life_rows(summary):
     where = (at_depth(found) if found["depth_m"] else ", at the surface") + f" ({found['surface']})"
     where += over(found.get("length_m", 0.0), "um") + ", while resolved" * found.get("resolved", False)
     row = row_of(found, "passages", f"passages to initiation, exponent {found['exponent']:g}", where=where)
-    return [replace(row, value=life.number(found))]
+    rows = [replace(row, value=life.number(found))]
+    if alone := found.get("contact_alone"):
+        rows.append(replace(row_of(alone, "passages", "passages to initiation by the load alone", where=at_depth(alone) + (
+            f" ({alone['surface']})")), value=life.number(alone)))
+    return rows
 
 
 def _meaning_rows(summary):

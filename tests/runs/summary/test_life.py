@@ -111,3 +111,19 @@ def test_of_a_resolved_part_they_are_an_upper_limit_and_tables_of_places_say_so(
     assert "index that decides at each place; at C the grid" in said
     assert "resolve" not in place_sections.passages([("A", 1e9, whole)], str)[0]
     assert place_sections.passages([("A", 1e9, {}), ("E", None, None)], str) == ()
+
+
+@pytest.mark.parametrize("Fi, error, earlier", [(1.2, 0.01, True), (0.94, 0.01, False), (0.96, 0.02, False),
+                                                (1.2, None, False)])
+def test_the_load_alone_is_said_where_it_initiates_a_crack_earlier(Fi, error, earlier):
+    """As where a grid resolves the passage up to a part of the contact only, while the contact itself is known."""
+    alone = {"Fi_max": Fi, "surface_Fi_max": 0.6, "depth_m": 180e-6, "error": {"Fi_max": error, "surface_Fi_max": error}}
+    searches = {"a": search(1.1, 1.3, None, **EARLY), "b": search(1.0, 1.2, None, resolved={**search(0.8, 0.9), "to_x_a": 0.5})}
+    found = life.of_searches({"a": searches["a"], "b": {**searches["b"], "contact_alone": alone}}, FATIGUE)
+    assert found["Fi"] == 0.95 and ("contact_alone" in found) == earlier
+    assert ("by the load alone, without any feature, 180 µm below surface b after" in life.words(found)) == earlier
+    assert len(summary_rows.life_rows({"life": found})) == 1 + earlier
+    if earlier:
+        one = found["contact_alone"]
+        assert one["passages"] == pytest.approx(2e6 * 1.2**-9.0)
+        assert one["error"]["passages"] == pytest.approx(2e6 * (1.19**-9.0 - 1.2**-9.0))
