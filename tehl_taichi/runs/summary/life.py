@@ -34,11 +34,13 @@ def _of_load(searches, fatigue, Fi):
     the load alone initiates a crack earlier; else {}.
     """
     found = [(name, one) for name, part in searches.items() if (one := searched(part).get("contact_alone"))]
-    name, alone = max(found, key=lambda named: named[1]["Fi_max"], default=("", {}))
+    if not found:
+        return {}
+    name, alone = max(found, key=lambda named: named[1]["Fi_max"])
     error = error_of(alone, "Fi_max")
     if error is None or alone["Fi_max"] - error <= Fi:
         return {}
-    passages = fatigue.limit_cycles * alone["Fi_max"]**-fatigue.exponent
+    passages = fatigue.limit_cycles * alone["Fi_max"] ** -fatigue.exponent
     return {"contact_alone": {"passages": passages, "exponent": fatigue.exponent, "limit_cycles": fatigue.limit_cycles,
                               "Fi": alone["Fi_max"], "surface": name, "depth_m": alone["depth_m"],
                               "error": {"passages": bar(passages, alone["Fi_max"], error, fatigue.exponent)}}}
