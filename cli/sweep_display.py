@@ -155,10 +155,11 @@ def print_study(study):
 
 
 def _number(value, error):
-    """Value with its error if known; empty without a value."""
+    """Value with its error; empty without a value."""
     from tehl_taichi.report.number_text import value_text
+    from tehl_taichi.values.digits import with_bar
 
-    return "" if math.isnan(value) else value_text(value, error)
+    return "" if math.isnan(value) else with_bar(value_text(value, error), error)
 
 
 def _cells(study, row, columns):

@@ -86,9 +86,9 @@ COLUMNS = (("friction_coefficient", "friction", 1), ("h_c_m", "h_c um", 1e6), ("
 
 def _shown(row, key, factor):
     """A number with its error; "" without a result."""
-    from tehl_taichi.values.digits import with_error
+    from tehl_taichi.values.digits import with_bar, with_error
 
     value, error = row[key], row["error"][key]
     if value is None or abs(value) < ROUNDING:
         return "" if value is None else "0"
-    return with_error(value * factor, None if error is None else error * factor)
+    return with_bar(with_error(value * factor, None if error is None else error * factor), error)

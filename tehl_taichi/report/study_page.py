@@ -15,7 +15,7 @@ from tehl_taichi.runs.sweep.study_labels import key_name, label_with_value, name
 from tehl_taichi.runs.sweep.study_table import Study, attributes
 from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
 from tehl_taichi.scene.aliases import full_name
-from tehl_taichi.values.digits import number_of, part_of, with_error
+from tehl_taichi.values.digits import number_of, part_of, with_bar, with_error
 
 MOST_ROWS = 500
 ROUNDING = 1e-12  # of the largest value: friction in pure rolling
@@ -86,16 +86,30 @@ def _ranges(study):
         values, errors, label = study_figures.with_errors(study, name)
         if np.isfinite(values).any():
             name, unit = name_and_unit(label)
-            low, top = (f"{_cell(values, errors, n)}{f' {unit}' * bool(unit)} ({_changes(study, n)})"
+            low, top = (_with_case(study, values, errors, unit, n)
                         for n in (int(np.nanargmin(values)), int(np.nanargmax(values))))
             yield f"{sentence_case(name)}: {low} to {top}."
 
 
-def _cell(values, errors, n):
+def _with_case(study, values, errors, unit, n):
+    """Text of a value, and of its case."""
+    unknown = "error unknown, " * (not np.isfinite(errors[n]) and not _is_rounding(values, n))
+    return f"{_value(values, errors, n)}{f' {unit}' * bool(unit)} ({unknown}{_changes(study, n)})"
+
+
+def _value(values, errors, n):
     """Text of a value with its error, four digits without; rounding errors relative to the largest value are 0."""
-    if abs(values[n]) <= ROUNDING * np.nanmax(np.abs(values)):
-        return "0"
-    return with_error(values[n], errors[n])
+    return "0" if _is_rounding(values, n) else with_error(values[n], errors[n])
+
+
+def _cell(values, errors, n):
+    """That text with a mark if the error is not known."""
+    text = _value(values, errors, n)
+    return text if _is_rounding(values, n) else with_bar(text, errors[n])
+
+
+def _is_rounding(values, n):
+    return abs(values[n]) <= ROUNDING * np.nanmax(np.abs(values))
 
 
 def _extreme(study, Fi, text, which):

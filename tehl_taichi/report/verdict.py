@@ -71,8 +71,8 @@ def _spread(searches):
     for name, found in ((name, searched(one)) for name, one in searches.items()):
         if found.get("rough"):
             top, error = found["statistics"], error_of(found["statistics"], "share_above_1")
-            share = with_error(100 * top["share_above_1"], None if error is None else 100 * error, "%", 2)
-            largest = index(found["Fi_max"], error_of(found, "Fi_max"))
+            share = _marked(with_error(100 * top["share_above_1"], None if error is None else 100 * error, "%", 2), error)
+            largest = _index(found, "Fi_max")
             points = number_of(top["points"], "point")
             out.append(f"Surface {name}: {share} of it has Fi > 1; the largest of {points} is {largest}.")
     return out
@@ -157,8 +157,18 @@ def _place(x):
 
 
 def _index_sentence(where, Fi, error):
-    unknown = "" if error is not None else " (error unknown)"
-    return f"{sentence_case(where)}: Fi = {index(Fi, error)}{unknown}, {SAID[judged(Fi, error)]}."
+    return f"{sentence_case(where)}: Fi = {_marked(index(Fi, error), error)}, {SAID[judged(Fi, error)]}."
+
+
+def _index(part, key):
+    """Text of an index of a part of the summary."""
+    error = error_of(part, key)
+    return _marked(index(part[key], error), error)
+
+
+def _marked(text, error):
+    """The text of a number, with a note if its error is not known."""
+    return text if error is not None else f"{text} (error unknown)"
 
 
 def headline(worst, places, known, when=""):
@@ -201,7 +211,7 @@ def _alone_words(searches):
     if not (worst := _worst_alone(searches)):
         return ()
     name, alone = worst
-    Fi, top = (index(alone[key], error_of(alone, key)) for key in ("Fi_max", "surface_Fi_max"))
+    Fi, top = (_index(alone, key) for key in ("Fi_max", "surface_Fi_max"))
     body, over = f"surface {name}" if name else "the surface", judged(alone["Fi_max"], error_of(alone, "Fi_max"))
     if not alone["depth_m"]:
         return (f"The smooth contact alone: Fi = {Fi} at {body}, {SAID[over]}.",)
@@ -230,7 +240,8 @@ def _of_film(summary, scene):
 
 
 def _with_error(part, key, unit):
-    return value_text(part[key], error_of(part, key), unit)
+    error = error_of(part, key)
+    return _marked(value_text(part[key], error, unit), error)
 
 
 def _none_yet(store):

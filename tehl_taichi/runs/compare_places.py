@@ -11,7 +11,7 @@ from tehl_taichi.runs.compare_change import are_separated, change
 from tehl_taichi.runs.compare_rows import NONE, merged_order
 from tehl_taichi.runs.open_results import kind
 from tehl_taichi.runs.open_results import open as opened
-from tehl_taichi.values.digits import with_error
+from tehl_taichi.values.digits import with_bar, with_error
 from tehl_taichi.values.summary_units import nothing_of, unit_of
 
 UNKNOWN = " (error unknown)"  # behind a change of two numbers, one of them at least without a bar
@@ -35,7 +35,8 @@ class PlaceRow:
 
     def _text(self, value, error):
         value *= self.quantity.factor
-        return format(value, self.quantity.form) if error is None else with_error(value, error * self.quantity.factor)
+        text = format(value, self.quantity.form) if error is None else with_error(value, error * self.quantity.factor)
+        return with_bar(text, error) if self.quantity.barred else text
 
     @property
     def change(self):

@@ -5,7 +5,7 @@ import io
 from dataclasses import dataclass
 from typing import Callable
 
-from tehl_taichi.values.digits import with_error
+from tehl_taichi.values.digits import with_bar, with_error
 from tehl_taichi.values.escape import cell
 
 
@@ -33,7 +33,8 @@ class TableColumn:
         if value is None or isinstance(value, str):
             return value or ""
         value *= self.factor
-        return format(value, self.form) if error is None else with_error(value, error * self.factor)
+        text = format(value, self.form) if error is None else with_error(value, error * self.factor)
+        return with_bar(text, error) if self.barred else text
 
 
 def csv_lines(columns, places):

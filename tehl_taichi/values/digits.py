@@ -54,6 +54,11 @@ def with_error(value, error, unit="", digits=4):
     return f"{f'({both}){power}' if power and rest else both + power} {unit}".rstrip()
 
 
+def with_bar(text, error):
+    """The text of a number that has an error bar, with a mark in tables if that is not known (None or nan): '1.008 ± ?'."""
+    return text if error is not None and math.isfinite(error) else f"{text} ± ?"
+
+
 def rounded_parts(value, error, digits=4):
     """(value, error, power of ten) as texts for :func:`with_error`; error "": not known."""
     if error is None or not math.isfinite(error) or not math.isfinite(value):

@@ -187,7 +187,8 @@ def test_a_cut_search_is_not_called_whole():
     tells = verdict.of_fatigue({**fatigue(1.6), "resolved": {**before, "surface_angle_deg": 67.0}}, part)[-1]
     assert "is at 67° to the surface." in tells[-1] and "18 to 50° to the surface" in tells[-1]
     assert tells[3].startswith("Over all moments that count (feature from -0.5 a up to 0.7 a), where the grid does not")
-    assert tells[0] == "The smooth contact alone: Fi = 0.9 at 180 µm below surface a, below 1, and 0.6 at surface a."
+    assert tells[0] == ("The smooth contact alone: Fi = 0.9 (error unknown) at 180 µm below surface a, below 1, and 0.6 "
+                        "(error unknown) at surface a.")
 
 
 def test_the_report_says_first_that_steel_would_yield():

@@ -66,7 +66,8 @@ def test_the_page_is_of_the_fatigue_that_is_asked_for(made, search):
     assert "Fi = 1 is the fatigue limit σ_eF = 450 MPa with κ = 0.25 (findley): no source is given" in text
     assert "Only moments with the feature up to 0.5 a count" in text and "over the whole passage" not in text
     assert "Index Fi at the surface, over all moments that count (feature up to 0.5 a)" in text
-    assert "The smooth contact alone: Fi = 0.9 at 180 µm below surface a, below 1, and 0.6 at surface a." in text
+    assert ("The smooth contact alone: Fi = 0.9 (error unknown) at 180 µm below surface a, below 1, and 0.6 (error unknown) "
+                        "at surface a.") in text
     assert "kappa = 0.25" in text  # the scene file on the page
     assert ("the error of Fi_max of the smooth contact, Fi_max, Fi_max below the surface is not known: "
             f"{fatigue_errors.OTHER}") in text

@@ -96,7 +96,7 @@ def test_results_are_told_as_tehl_show_tells_them(made):
         assert found[what].values == tuple(one[what] for one in shown)
     assert found["Fi_max below the surface"].values == ("1.39 (error unknown), at 25 um", "1.39 (error unknown), at 40 um")
     assert found["Fi_max of the smooth contact, at 180 um"].values == ("0.9 (error unknown)",) * 2
-    assert found["findley stress"].values == ("403.2 MPa", "480.0 MPa")
+    assert found["findley stress"].values == ("403.2 ± 9.2 MPa", "480.0 ± 9.2 MPa")
     assert found["findley stress, below it"].same and not found["findley stress"].same
     assert found["critical plane, angle to the surface"].values[0] == "57.0 deg"  # without the usual angles of pits
     order = list(found)

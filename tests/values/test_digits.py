@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tehl_taichi.values.digits import SCALES, micrometres, number_of, part_of, printed_unit, with_error
+from tehl_taichi.values.digits import SCALES, micrometres, number_of, part_of, printed_unit, with_bar, with_error
 from tehl_taichi.values.units import in_unit
 
 ROOT = Path(__file__).parents[2]
@@ -71,3 +71,9 @@ def test_no_count_of_a_list_has_a_plural_of_its_own():
     assert sorted(found) == [
         "{len(found)} rows", "{len(found)} rows", "{len(names)} names", "{len(scene.features)} features",
         "{len(self.stores)} runs", "{len(value)} characters", "{len(warnings)} warnings"]
+
+
+@pytest.mark.parametrize("error, said", [(0.02, "1.00 ± 0.02"), (0.0, "1.00 ± 0.02"), (None, "1.00 ± 0.02 ± ?"),
+                                         (float("nan"), "1.00 ± 0.02 ± ?")])
+def test_a_bar_that_is_not_known_is_marked(error, said):
+    assert with_bar("1.00 ± 0.02", error) == said

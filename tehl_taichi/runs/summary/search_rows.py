@@ -5,7 +5,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from tehl_taichi.fatigue.pressure_alone import searched, why_none
-from tehl_taichi.runs.summary.summary_row import SummaryRow, at_depth, depth_text, row_of
+from tehl_taichi.runs.summary.summary_row import SummaryRow, at_depth, depth_text, quantity, row_of
 from tehl_taichi.scene.feature_wording import range_words
 from tehl_taichi.values.digits import micrometres, number_of
 from tehl_taichi.values.summary_values import error_of
@@ -190,7 +190,9 @@ def _local_rows(deep):
 def _judged_stress(part, criterion):
     """Row of the stress behind an index, with the relative error of the index."""
     Fi, bar, stress = part["Fi_max"], error_of(part, "Fi_max"), part["findley_stress_max_Pa"]
-    return replace(_stress(f"{criterion} stress", stress), error=abs(bar / Fi) * stress if bar is not None and Fi else None)
+    error = abs(bar / Fi) * stress if bar is not None and Fi else None
+    values = {"stress": stress, "error": {"stress": error}}
+    return replace(_stress(f"{criterion} stress", stress), value=quantity(values, "stress", 1e-6, "MPa"), error=error)
 
 
 def _stress(what, value):

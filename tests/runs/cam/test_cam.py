@@ -72,7 +72,7 @@ def test_a_cam_opens_again(cycle):
     again = tehl.open(cycle.folder)
     assert kind(cycle.folder) == "cam" and again.record == cycle.record == json.loads((cycle.folder / "cam.json").read_text())
     (heads, lines) = cam_columns.tables(again.rows)["steady film"]
-    assert heads[0] == "angle deg" and lines[0][:3] == ["-20.00", "0.200", "0.0600 ± 0.0010"]
+    assert heads[0] == "angle deg" and lines[0][:3] == ["-20.00", "0.200 ± ?", "0.0600 ± 0.0010"]
     assert (cycle.folder / "cam.csv").read_text().splitlines()[0].endswith("error_steady_h_min_m,note")
 
 
