@@ -17,9 +17,9 @@ SETTLED = 0.05  # K
 FLUTTER = 0.7
 BLOCKS, USUAL = 40, 16  # at most; 8 to 12 are usual
 LONGEST_RUN = 8  # blocks that are averaged
-# Blocks without progress after which it will not settle, and what is progress. Scenes that settle made progress within four
-# blocks, those that do not jump by as much (2 to 300 K) in the fortieth block as in the tenth
-STUCK, PROGRESS = 8, 0.95
+# Blocks without progress after which it will not settle, what is progress, and the change (K) from which on it counts: scenes
+# that do not settle jump by as much (to 300 K) in the fortieth block as in the tenth; some that flutter by 0.8 K do settle
+STUCK, PROGRESS, JUMP = 8, 0.95, 2.0
 
 
 def time_step(scene, scales, dx):
@@ -62,8 +62,8 @@ def find_steady(levels, heat, solve, T=None):
 
 
 def _stuck(changes):
-    """Whether none of the last STUCK changes is smaller than all before, by PROGRESS."""
-    return len(changes) > STUCK and min(changes[-STUCK:]) > PROGRESS * min(changes[:-STUCK])
+    """Whether none of the last STUCK changes is smaller than JUMP, or than all before by PROGRESS."""
+    return len(changes) > STUCK and min(changes[-STUCK:]) > max(JUMP, PROGRESS * min(changes[:-STUCK]))
 
 
 def remaining_change(means, loaded):

@@ -631,6 +631,15 @@ def test_stiff_oil_marches_on_a_coarse_grid_and_goes_on_from_its_temperatures(mo
     assert found.scalars["film_max_C"] == pytest.approx(330.8, abs=1.0)
 
 
+def test_blocks_that_flutter_may_settle_yet():
+    """A drawn line whose eighth block differs by 0.2 K has 0.8 K at the thirteenth and settles at the 24th."""
+    from tehl_taichi.march.alternating_start import _stuck
+
+    flutter = [19.0, 4.8, 2.3, 1.4, 0.9, 0.7, 0.5, 0.2, *[0.6] * 12]
+    assert not any(_stuck(flutter[:n]) for n in range(len(flutter)))
+    assert _stuck([10 * change for change in flutter])
+
+
 @pytest.mark.parametrize("ratio", [1.0, 0.999, 0.85])
 def test_blocks_that_jump_without_progress_end_early(monkeypatch, ratio):
     """A ball on a disc, mtm at SRR 1, jumps by 10 to 20 K from block to block; 40 of them took a minute."""
