@@ -90,7 +90,7 @@ def passage_readings(scene, reader, scalar, searches=None, run_in=None):
     out = {entry.key: _reading(entry, scalar, scene) for entry in bars_of if entry.exists(scene)}
     out["p_max_Pa"] = readings.pressure_reading(_moment(reader, int(np.argmax(p)) + 1), a)
     out["h_min_m"] = readings.film_reading(_moment(reader, int(np.argmin(h)) + 1), scene)
-    middle = np.argmin(np.abs([reader.feature_x(n) for n in range(1, p.size + 1)]))
+    middle = np.argmin(np.abs([reader.feature_x(n) + scene.features[0].x for n in range(1, p.size + 1)]))
     out[MIDDLE] = readings.film_reading(_moment(reader, int(middle) + 1), scene)
     found = indices(searches or {})
     out |= {name: GridReading(float(part["Fi_max"]), doubt=_shallow(name, found)) for name, part in found.items()}

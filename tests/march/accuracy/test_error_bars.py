@@ -399,6 +399,15 @@ def test_companions_that_fail_leave_bars_unknown_and_say_why(passage):
     assert len(said) == 1 and "passage h_min, passage p_max" in said[0] and refused[0] in said[0]
 
 
+def test_the_film_in_the_middle_is_that_under_the_feature_wherever_its_x_lies(passage):
+    """Positions count from feature.x = 0: those of a feature at -2 mm begin behind the contact."""
+    moved = Store([replace(shot, feature_x=shot.feature_x + 2e-3) for shot in passage.items])
+    plain, other = (coarse_runs.passage_readings(short(**{"feature.x": x}), reader, reader.scalar)[coarse_runs.MIDDLE]
+                    for x, reader in ((0.0, passage), (-2e-3, moved)))
+    films = {float(shot.fields["film"].min()) for shot in passage.items[1:]}
+    assert len(films) > 1 and other.value == plain.value
+
+
 def test_a_failed_companion_takes_coarser_ones_with_it(passage):
     own = coarse_runs.passage_readings(short(), passage, passage.scalar)
     coarser = {"values": {name: vars(reading) for name, reading in own.items()}}
