@@ -113,7 +113,8 @@ def _damage_errors(folder):
     except StoreError:
         raise
     except Exception as error:  # zarr and its codecs have no common one
-        why = getattr(error, "strerror", None) or " ".join(str(error).split())
+        why = (f"its {ROOT} has no {error}" if isinstance(error, KeyError) else
+               getattr(error, "strerror", None) or " ".join(str(error).split()))
         raise StoreError(f"{folder} is damaged or missing ({why})") from None
 
 

@@ -37,9 +37,13 @@ def verify(path, frame, size):
 
 
 def _decompressed(frame, size):
-    if size is not None and declared_bytes(frame) != size:
-        raise ValueError(f"it declares {declared_bytes(frame)} bytes, not the {size} of its array")
-    return zstd.decompress(frame)
+    if size is not None and (found := declared_bytes(frame)) != size:
+        raise ValueError("it does not begin as a chunk" if found is None else
+                         f"it declares {found} bytes, not the {size} of its array")
+    try:
+        return zstd.decompress(frame)
+    except RuntimeError:  # of the codec, in its words
+        raise ValueError("its content does not fit its checksum") from None
 
 
 @contextlib.contextmanager
@@ -49,7 +53,7 @@ def _damage_errors(path):
         yield
     except FileNotFoundError:
         raise StoreError(f"{path} is missing: the store is damaged") from None
-    except (OSError, RuntimeError, ValueError) as error:
+    except (OSError, ValueError) as error:
         raise StoreError(f"{path} is damaged ({getattr(error, 'strerror', error)}); its data are lost") from None
 
 

@@ -84,7 +84,7 @@ def test_damage_is_reported(tmp_path):
     array = json.loads((path / "zarr.json").read_text())
     del array["shape"]
     (path / "zarr.json").write_text(json.dumps(array))
-    with pytest.raises(StoreError, match="is damaged or missing"):
+    with pytest.raises(StoreError, match="is damaged or missing .its zarr.json has no 'shape'"):
         array_file.read_whole(path)
 
 

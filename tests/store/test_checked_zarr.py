@@ -41,11 +41,17 @@ def flips(file):
     file.write_bytes(file.read_bytes()[:-1] + bytes([file.read_bytes()[-1] ^ 1]))
 
 
+def empties(file):
+    file.write_bytes(b"")
+
+
 def swaps(file):
     file.write_bytes((file.parent.parent / "x" / "c" / "0").read_bytes())
 
 
-@pytest.mark.parametrize("damage, said", [(halves, "is damaged"), (flips, "is damaged"), (Path.unlink, "is missing"),
+@pytest.mark.parametrize("damage, said", [(halves, "is damaged .its content does not fit its checksum"),
+                                          (flips, "is damaged .its content does not fit its checksum"),
+                                          (empties, "is damaged .it does not begin as a chunk"), (Path.unlink, "is missing"),
                                           (swaps, "is damaged .it declares 264 bytes, not the 1188 of its array")])
 @pytest.mark.parametrize("options", [{}, {"chunks": None}])
 def test_damage_after_opening_is_named_when_it_is_read(path, damage, said, options):
