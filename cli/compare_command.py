@@ -10,6 +10,8 @@ from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json, put
 
+from tehl_taichi.values.digits import number_of
+
 LONG = 60  # letters of a value, as of the contents of a table
 
 
@@ -101,8 +103,12 @@ def _places(found):
     _legend(row[-1] for row in rows if pair)
     for name, places in found.without_result().items():
         put(f"no result in {name}: {', '.join(places)}")
+    common = found.common_places()
+    if not common:
+        put("no place in common: each result has its own")
     if same := [quantity.label for name, quantity in found.quantities.items() if name not in unequal]:
-        put(f"equal in all: {'; '.join(same)}")
+        where = "in all" if common == len(found.places) else f"at the {number_of(common, 'common place')}"
+        put(f"equal {where}: {'; '.join(same)}")
 
 
 def _without_repeats(rows):

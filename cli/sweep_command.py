@@ -105,6 +105,8 @@ def _report(plan, out):
     """Print the plan of a sweep."""
     from tehl_cli.sweep_display import doubts
 
+    from tehl_taichi.runs.sweep.axis_syntax import short_word
+    from tehl_taichi.runs.sweep.study_labels import key_unit
     from tehl_taichi.scene.scales import Scales
 
     refused = plan.refused()
@@ -112,8 +114,8 @@ def _report(plan, out):
     put(f"{number_of(plan.count, 'case')}{shape} of {plan.scene.name} into {out}")
     put(f"{plan.scene.name}: {Scales.of(plan.scene).words}")
     for key in plan.keys:
-        values = [str(value) for value in plan.coordinate(key)[1]]
-        put(f"{key} = {', '.join(values[:12])}{' ...' if len(values) > 12 else ''}")
+        values = [short_word(value) for value in plan.coordinate(key)[1]]
+        put(f"{key} = {', '.join(values[:12])}{' ...' if len(values) > 12 else ''} {key_unit(plan.scene, key)}".rstrip())
     for number, reason in refused.items():
         put(f"case {number} would be refused: {reason}")
     for sentence in (*doubts(plan), *plan.warnings()):

@@ -11,13 +11,17 @@ from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
 from tehl_taichi.errors import Interrupted, stopped
+from tehl_taichi.runs.sweep import main_effects, repeated_cases
 from tehl_taichi.runs.sweep.axis_syntax import short_word
+from tehl_taichi.runs.sweep.study_labels import column_name, key_unit
 from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
 from tehl_taichi.values.digits import number_of, part_of
 from tehl_taichi.values.escape import typed
 
 SHOWN = ((JUDGED, "Fi judged", 1), ("transient_h_min_m", "h_min um", 1e6), ("transient_p_max_Pa", "p_max GPa", 1e-9),
          ("steady_h_c_m", "steady h_c um", 1e6))
+STEADY = (("steady_p_max_Pa", "steady p_max GPa", 1e-9), ("steady_friction_coefficient", "steady friction", 1),
+          ("steady_film_max_C", "steady film deg C", 1), ("contact_alone_Fi_max", "contact alone Fi", 1))  # without a passage
 LAST, MOST_ROWS = 8, 60
 
 
@@ -126,8 +130,7 @@ def duration(seconds):
 def doubts(plan):
     """Warnings about keys without effect, in all cases or in some of them."""
     yield from plan.doubts()
-    yield from (f"case {number} equals case {first}: the keys that differ have no effect there"
-                for number, first in plan.equal().items())
+    yield from repeated_cases.sentences(plan)
     if some := plan.without_temperatures():
         yield (f"{_cases(some)} no temperatures, the other cases do; use --thermal to compute them in all cases, "
                "--isothermal in none")
@@ -143,15 +146,40 @@ def print_study(study):
     """Print the table of a study, the reasons of missing results, and its path."""
     from tehl_cli.tables import list_table
 
-    columns = [entry for entry in SHOWN if entry[0] in study.values]
+    columns = columns_of(study)
     rows = [_cells(study, row, columns) for row in itertools.islice(study.rows(), MOST_ROWS)]
-    list_table(f"{study.path}", ("case", *study.plan.keys, "status", *(title for _, title, _ in columns)), rows, whole=True)
+    heads = ("case", *key_heads(study.plan), "status", *(title for _, title, _ in columns))
+    list_table(f"{study.path}", heads, rows, whole=True)
     if len(study) > MOST_ROWS:
         put(f"and {len(study) - MOST_ROWS} more in {study.table}")
+    _print_effects(study)
     for record in study.results():
         if not record["converged"]:
             put(f"{case_words(record)}: {record['status']}: {record['reason']}")
     put(f"table: {study.table}; figures: tehl plot {typed(study.path)}")
+
+
+def key_heads(plan):
+    """Heads of the columns of the keys, with units as of the numbers beside them: "load N/m"."""
+    return [f"{key} {key_unit(plan.scene, key)}".rstrip() for key in plan.keys]
+
+
+def columns_of(study):
+    """The (column, head, factor) of the numbers that the table of a study shows."""
+    passes = any(name.startswith("transient_") for name in study.values)
+    return [entry for entry in (*SHOWN, *STEADY * (not passes)) if entry[0] in study.values]
+
+
+def _print_effects(study):
+    """Print which key matters: the share of the spread of each usual result that it accounts for; nothing without shares."""
+    from tehl_cli.tables import list_table
+
+    found = main_effects.usual_effects(study)
+    axes = list(dict.fromkeys(keys for one in found.values() for keys in one.shares))
+    rows = [[column_name(name), *(f"{one.shares[keys]:.0%}" for keys in axes),
+             "" if one.together is None else f"{one.together:.0%}"] for name, one in found.items()]
+    if rows:
+        list_table("share of the spread", ("result", *(", ".join(keys) for keys in axes), "keys together"), rows, whole=True)
 
 
 def _number(value, error):

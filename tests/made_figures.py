@@ -1,6 +1,7 @@
 """A store of made-up fields and a made-up fatigue search, their figures, and what stands in these."""
 
 import dataclasses
+import re
 
 import numpy as np
 
@@ -78,8 +79,8 @@ def drawn(name, store, page=None, at=None):
 
 
 def title(figure):
-    """That of the whole, in one line."""
-    return " ".join(figure.get_suptitle().split())
+    """That of the whole, in one line, without the half-width."""
+    return re.sub(r" \(a = [\d.]+ mm\)", "", " ".join(figure.get_suptitle().split()))
 
 
 def titles(figure):

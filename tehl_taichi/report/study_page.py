@@ -11,9 +11,10 @@ from tehl_taichi.report.run_page import scene_section
 from tehl_taichi.report.study_plots import figures
 from tehl_taichi.report.verdict import limit_words
 from tehl_taichi.runs.sweep import study_figures
-from tehl_taichi.runs.sweep.study_labels import key_name, label_with_value, name_and_unit
+from tehl_taichi.runs.sweep.main_effects import usual_effects
+from tehl_taichi.runs.sweep.study_labels import column_name, key_name, label_with_value, name_and_unit
 from tehl_taichi.runs.sweep.study_table import Study, attributes
-from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
+from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of, usual_columns
 from tehl_taichi.scene.aliases import full_name
 from tehl_taichi.values.digits import number_of, part_of, with_bar, with_error
 
@@ -27,7 +28,7 @@ def of(folder):
     scene, keys = study.plan.scene, ", ".join(map(key_name, study.plan.keys))
     cases = number_of(len(study), "case")
     return Page(f"{scene.name}: report of a study", f"{scene.name}: {cases} over {keys}", _answer(study), (
-        Section("Results", (figure_block(*figures(study)),)), Section("Cases", (_table(study), _rest(study))),
+        Section("Results", (figure_block(*figures(study)), _effects(study))), Section("Cases", (_table(study), _rest(study))),
         Section("Without a result", (sentences(_failed(study)),)), _scene(study),
         Section("Provenance", (facts(_provenance(study)),))))
 
@@ -82,7 +83,7 @@ def _limits(study):
 
 def _ranges(study):
     """Sentence about the range of each usual result, with the cases of the smallest and the largest value."""
-    for name in study_figures.usual(study):
+    for name in usual_columns(study.values):
         values, errors, label = study_figures.with_errors(study, name)
         if np.isfinite(values).any():
             name, unit = name_and_unit(label)
@@ -135,11 +136,21 @@ def _changes(study, n):
 
 def _table(study):
     keys = [study_figures.axis_values(study, key, per_case=True) for key in study.plan.keys]
-    columns = [study_figures.with_errors(study, name) for name in study_figures.usual(study)]
+    columns = [study_figures.with_errors(study, name) for name in usual_columns(study.values)]
     rows = [[str(n), *(words[n] for *_, words in keys), row["status"],
              *(_cell(values, errors, n) if np.isfinite(values[n]) else "" for values, errors, _ in columns)]
             for n, row in zip(range(MOST_ROWS), study.rows())]
     return table(("case", *(label for _, label, _ in keys), "status", *(label for *_, label in columns)), rows)
+
+
+def _effects(study):
+    """Table of the share of the spread of each usual result that a key accounts for; None without any."""
+    found = usual_effects(study)
+    axes = list(dict.fromkeys(keys for one in found.values() for keys in one.shares))
+    rows = [[sentence_case(column_name(name)), *(f"{one.shares[keys]:.0%}" for keys in axes),
+             "" if one.together is None else f"{one.together:.0%}"] for name, one in found.items()]
+    heads = ("", *(", ".join(map(key_name, keys)) for keys in axes), "keys together")
+    return table(heads, rows, "Share of the spread of each result that a key accounts for")
 
 
 def _rest(study):

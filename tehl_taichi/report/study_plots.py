@@ -3,8 +3,9 @@
 import numpy as np
 
 from tehl_taichi.report.plots import colour, field_map, line, marks, stack
-from tehl_taichi.runs.sweep.study_figures import axis_values, curve_keys, curve_rows, numeric, usual, with_errors
+from tehl_taichi.runs.sweep.study_figures import axis_values, curve_keys, curve_rows, numeric, with_errors
 from tehl_taichi.runs.sweep.study_labels import label_with_value, name_and_unit
+from tehl_taichi.runs.sweep.summary_columns import usual_columns
 from tehl_taichi.view.figures.palette import RESULT
 
 MOST_LINES = 12
@@ -14,7 +15,7 @@ LONGEST = 30  # letters of the title of an upright axis
 def figures(study):
     """Figures of each usual result: lines over one key and a map over two, or points if the cases form no grid."""
     out = []
-    for name in usual(study):
+    for name in usual_columns(study.values):
         if study.plan.gridded and len(study.plan.dims) <= 2:
             out += [_lines(study, name), *([_map(study, name)] if len(study.plan.dims) == 2 else [])]
         else:

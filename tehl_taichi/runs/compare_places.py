@@ -129,10 +129,17 @@ class PlaceComparison:
         return [row for row in rows if any(row.numbers)]
 
     def unequal(self) -> list:
-        """Printed names of the quantities that differ somewhere or that one of the results lacks."""
+        """Names of the quantities that differ somewhere, that one of the results lacks, or that have no place in common."""
+        met = {row.name for row in self.rows if len(row.numbers) - row.numbers.count(None) > 1}
         missing = {name for name in self.quantities for table in self.tables if name not in {one for one, _ in table.numbers}}
+        missing |= self.quantities.keys() - met
         return list(dict.fromkeys(row.name for row in self.rows
                                   if row.name in missing or len(set(row.texts) - {NONE}) > 1))
+
+    def common_places(self) -> int:
+        """Number of places that all results have."""
+        each = [{place.key for place in table.places} for table in self.tables]
+        return len(set.intersection(*each)) if each else 0
 
     def without_result(self) -> dict:
         """{name of a result: texts of its places without a result}, for results with such places."""

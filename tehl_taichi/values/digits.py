@@ -4,7 +4,8 @@ import math
 
 # of SI units: (up to below this size, factor, unit that people read)
 SCALES = {"m": ((1e-3, 1e6, "µm"), (1.0, 1e3, "mm")), "Pa": ((1e9, 1e-6, "MPa"), (math.inf, 1e-9, "GPa")),
-          "m2/s": ((math.inf, 1e6, "mm²/s"),), "1/Pa": ((math.inf, 1e9, "1/GPa"),)}
+          "m2/s": ((math.inf, 1e6, "mm²/s"),), "1/Pa": ((math.inf, 1e9, "1/GPa"),),
+          "N/m": ((1e3, 1.0, "N/m"), (math.inf, 1e-3, "N/mm"))}
 
 
 def printed_unit(unit, size):

@@ -232,12 +232,13 @@ def test_curves_of_a_study_are_over_the_key_with_more_values(tmp_path):
     """A traction curve over slip, a line for each temperature, though the temperatures were named first; its values by hand."""
     from tehl_taichi.report import study_plots
     from tehl_taichi.runs.sweep import study_figures
+    from tehl_taichi.runs.sweep.summary_columns import usual_columns
 
     gear = scene("gear").replace(**{"feature.height": 0.5e-6, "grid.nx": 64, "grid.ny": 16})
     swept = plan(gear, {"temperature": [60.0, 80.0], "srr": [0.0, 0.1, 0.2]})
     found = sweeping.run(swept, tmp_path / "s.zarr", workers=1, work=formula)
     assert study_figures.curve_keys(found) == ["srr", "temperature"]
-    name = study_figures.usual(found)[0]
+    name = usual_columns(found.values)[0]
     values, label = study_plots.column(found, name)
     lines = next(figure for figure in study_plots.figures(found) if figure.name == f"{name}-lines")
     assert [trace["x"].tolist() for trace in lines.traces] == [[0.0, 0.1, 0.2]] * 2

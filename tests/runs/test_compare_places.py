@@ -236,3 +236,20 @@ def test_an_axis_is_in_a_unit_of_its_key(unit, x, factor, label):
     tables, places = [SimpleNamespace(x_unit=unit, across="pressure")], [SimpleNamespace(x=one) for one in (x, -x / 2)]
     found = compare_places_figure._axis(SimpleNamespace(tables=tables, places=places))
     assert found == (pytest.approx(factor), label)
+
+
+@pytest.mark.parametrize("other, said, listed", [
+    ([0.2, 0.3], "no place in common", True), ([0.1, 0.3], "equal at the 1 common place: ", False),
+    ([-0.1, 0.1], "equal in all: ", False)])
+def test_studies_are_equal_only_where_both_have_a_case(other, said, listed, tmp_path, monkeypatch):
+    """A quantity that no case of both has is in the table, and never equal."""
+    from tehl_taichi.runs.sweep import sweeping
+    from tehl_taichi.runs.sweep.plan import plan
+
+    gear = BASE.replace(**{"grid.nx": 64, "grid.ny": 16})
+    for name, values in (("a.zarr", [-0.1, 0.1]), ("b.zarr", other)):
+        sweeping.run(plan(gear, {"srr": values}), tmp_path / name, workers=1, keep="summary", work=formula)
+    monkeypatch.chdir(tmp_path)
+    printed = CliRunner().invoke(app, ["compare", "a.zarr", "b.zarr", "--out", "c.png", "--dpi", "40"]).output
+    assert said in printed and ("differences between the results" in printed) == listed
+    assert ("equal" in printed) != listed and ("passage h_min" in printed)

@@ -79,3 +79,35 @@ def test_pages_are_refused_before_anything_is_searched(command):
 
     found = CliRunner().invoke(app, [command, "nothing.zarr", "--dpi", "5"]).exception
     assert isinstance(found, SceneError) and "dpi = 5 is out of range" in str(found)
+
+
+@pytest.mark.rendered
+@pytest.mark.parametrize("width", [5.0, 8.5, 17.0])
+def test_a_long_y_label_stays_on_the_page(width):
+    """In panels that are lower than it is long."""
+    page = FigureStyle(width=width)
+
+    def draw():
+        figure, axes = page.figure(2, 2)
+        axes[0, 0].set_ylabel("steady friction coefficient of a contact (without a unit)")
+        return figure
+
+    figure = page.drawn(draw)
+    figure.draw_without_rendering()
+    label = figure.axes[0].yaxis.label
+    assert "\n" in label.get_text() and figure.axes[1].get_ylabel() == ""
+    box = label.get_window_extent()
+    assert 0 <= box.x0 and 0 <= box.y0 and box.y1 <= figure.bbox.height
+
+
+@pytest.mark.parametrize("x, ticks", [([2.0, 4.0, 8.0], [2, 5]), ([0.1, 1.0, 10.0], [0.1, 1, 10]), ([1.0, 40.0], [1, 10]),
+                                      ([1.0, 2.0, 3.0], None), ([0.0, 1.0, 10.0], None), ([-1.0, 10.0, 100.0], None)])
+def test_axes_of_even_ratios_are_logarithmic_with_ticks(x, ticks):
+    """Also within a decade."""
+    from tehl_taichi.view.figures import logarithmic_axis
+
+    ax = FigureStyle().figure()[1][0, 0]
+    ax.plot(x, x)
+    logarithmic_axis.choose_x(ax, x)
+    assert (ax.get_xscale() == "log") == (ticks is not None)
+    assert ticks is None or set(ticks) <= {round(tick, 6) for tick in ax.get_xticks()}

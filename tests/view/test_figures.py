@@ -1,5 +1,8 @@
 """Figures of a store: what they name, how they are laid out and coloured. The store is made up: nothing is solved."""
 
+import base64
+import re
+
 import numpy as np
 import pytest
 from made_figures import Made, drawn, legend, made, searched, title
@@ -58,15 +61,43 @@ def test_text_can_be_read_and_stays_on_the_page(built_in, width):
 def test_a_steady_run_is_no_start_and_figures_name_scene_and_moment():
     for name, what in (("maps", "pressure and film"), ("temperature_maps", "temperatures")):
         (*_, middle, last), whose = made().scalar("p_max_Pa") / 1e9, "; surface a carries the feature" * (name != "maps")
-        assert drawn(name, made("ball-on-disc")).get_suptitle() == f"ball-on-disc: {what}, steady, p_max 5.78 GPa"
+        assert title(drawn(name, made("ball-on-disc"))) == f"ball-on-disc: {what}, steady, p_max 5.78 GPa"
         said = f"feature at +0.00 a, p_max {middle:.2f} GPa ({last:.2f} at +0.80 a)"
         assert title(drawn(name, made())) == f"gear: {what}, {said}{whose}"
         assert title(drawn(name, made(), at=0.7)) == f"gear: {what}, feature at +0.80 a, p_max {last:.2f} GPa{whose}"
-    assert drawn("centreline", made("ball-on-disc")).get_suptitle() == "ball-on-disc: along y = 0, steady"
-    assert drawn("centreline", made("smooth-line")).get_suptitle() == "smooth-line: along x, steady"
+    assert title(drawn("centreline", made("ball-on-disc"))) == "ball-on-disc: along y = 0, steady"
+    assert title(drawn("centreline", made("smooth-line"))) == "smooth-line: along x, steady"
     begun = made()
     begun.steps = 1
     assert "steady start" not in drawn("maps", begun).get_suptitle()
+
+
+@pytest.mark.parametrize("name", ["centreline", "centreline_y", "maps", "temperature", "temperature_maps"])
+@pytest.mark.parametrize("built_in", ["gear", "ball-on-disc"])
+def test_axes_in_half_widths_come_with_their_length(name, built_in):
+    """Which is the stored length over the drawn number."""
+    store = made(built_in)
+    figure = drawn(name, store)
+    (said,) = re.findall(r"\(a = ([\d.]+) mm\)", " ".join(figure.get_suptitle().split()))
+    ax = figure.axes[0]
+    drawn_x = np.asarray(ax.lines[0].get_xdata() if ax.lines else ax.collections[0].get_coordinates()[0, :, 0])
+    along = store.y if name == "centreline_y" else store.x
+    assert np.isclose(np.abs(drawn_x).max() * float(said) * 1e-3, np.abs(along).max(), rtol=5e-3) or np.isclose(
+        np.diff(drawn_x).mean() * float(said) * 1e-3, np.diff(along).mean(), rtol=5e-3)
+
+
+def test_figures_in_a_notebook_have_their_size():
+    """Of the picture, so that a page keeps room for it."""
+    from io import BytesIO
+
+    import matplotlib.image
+
+    from tehl_taichi.view.figures.notebook_figures import Figures
+
+    figures = Figures({"maps": drawn("maps", made())}, 50)
+    ((wide, high, packed),) = re.findall(r'width="(\d+)" height="(\d+)".*base64,([^"]+)"', figures._repr_html_())
+    shape = matplotlib.image.imread(BytesIO(base64.b64decode(packed))).shape
+    assert abs(int(high) - shape[0]) <= 1 and abs(int(wide) - shape[1]) <= 1
 
 
 def test_lines_along_y_pass_through_the_largest_pressure_of_each_moment():

@@ -16,7 +16,8 @@ MEANT = {"h_min_m": f"(?:h_min|smallest film){LENGTH}", "h_c_m": f"h_c{LENGTH}",
          "surface_b_max_C": f"surface b .*{HEAT}", "film": f"film{LENGTH}", "temperature_mid": f"film.*{HEAT}",
          "temperature_a": f"surface a.*{HEAT}", "temperature_b": f"surface b.*{HEAT}", "load_error": "load()",
          "mass_error": "mass()", "contact_load_fraction": "load on solid()", "judged_Fi": "Fi judged()"}
-HEADS = [*((key, head, factor) for key, head, factor, _ in tables.HISTORY), *traction_command.COLUMNS, *sweep_display.SHOWN]
+HEADS = [*((key, head, factor) for key, head, factor, _ in tables.HISTORY), *traction_command.COLUMNS, *sweep_display.SHOWN,
+         *sweep_display.STEADY]
 CURVES = [(key, f"{title} ({unit})", factor) for key, title, factor, unit, _ in live_curves.SHOWN]
 MAPS = [(field, label, factor) for field, factor, label, _ in frames.SHOWN.values()]
 WINDOWS = [(key, f"{title} ({unit})", factor) for key, (title, factor, unit, _) in zoom_maps.SHOWN.items()]

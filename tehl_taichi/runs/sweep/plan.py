@@ -6,6 +6,8 @@ import json
 import math
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from tehl_taichi.errors import SceneError
 from tehl_taichi.runs.sweep import axis_syntax
 from tehl_taichi.runs.sweep.sampling import interval, latin_hypercube
@@ -17,7 +19,7 @@ from tehl_taichi.values.coerce import plain, shown
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.quantity import kinds
 
-LOOKED_AT = 100  # cases among which equal ones are looked for, 10 ms each
+LOOKED_AT = 100  # cases of a larger plan whose warnings and idle keys are looked at, 30 ms each
 MOST = 100_000  # cases: more are a mistake in a range
 ONE = "case"  # the dimension of a study whose keys change together
 
@@ -34,6 +36,7 @@ class Plan:
     axes: tuple
     drawn: dict = field(default_factory=dict)
     _cases: dict = field(default_factory=dict, init=False, repr=False, compare=False)
+    _known: dict = field(default_factory=dict, init=False, repr=False, compare=False)  # what looking at all cases gave
 
     def __post_init__(self):
         if not self.axes:
@@ -113,7 +116,7 @@ class Plan:
         """Scene of a case; cached while a plan is searched. Raises SceneError."""
         if number not in self._cases:
             found = self.scene.replace(**self.changes(number))
-            if self.count > LOOKED_AT:
+            if self.is_large:
                 return found
             self._cases[number] = found
         return self._cases[number]
@@ -129,18 +132,25 @@ class Plan:
         """{case: reason} of the cases that the scene refuses. Raises SceneError if a value is refused for all other keys: that
         is a mistake.
         """
-        found = {}
-        for number in range(self.count):
-            try:
-                self.case(number)
-            except SceneError as error:
-                found[number] = str(error)
+        found = dict(self._look()[0])
         for axis in self.axes if found and self.gridded else ():
             self._check_values(axis, found)
         if len(found) == self.count:
             raise SceneError(found[0])
         self._check_effect(found)
         return found
+
+    def _look(self):
+        """({case: reason} of the refused cases, [numbers of the isothermal ones]), found once."""
+        if not self._known:
+            refused, isothermal = {}, []
+            for number in range(self.count):
+                try:
+                    isothermal += [number] * self.case(number).isothermal
+                except SceneError as error:
+                    refused[number] = str(error)
+            self._known["all"] = refused, isothermal
+        return self._known["all"]
 
     def _check_effect(self, refused):
         """Raise SceneError for a key without effect in any case: all its rows would be equal."""
@@ -159,23 +169,29 @@ class Plan:
         return why
 
     def doubts(self):
-        """Sentences about keys, set or swept, without effect in any case; for a large plan only about set keys."""
-        if self.count > LOOKED_AT:
-            return list(idle_keys.doubts(self.scene))
-        every = [list(idle_keys.doubts(scene)) for scene in self._scenes(range(self.count))]
+        """Sentences about keys, set or swept, without effect in any case; of a large plan, in any case looked at."""
+        every = [list(idle_keys.doubts(scene)) for scene in self.scenes_looked_at()]
         return [sentence for sentence in every[0] if all(sentence in other for other in every)] if every else []
 
     def warnings(self):
         """Warnings of the cases known before their runs, except those about keys without effect: the first of every kind, with
-        the number of its cases. Of a large plan, cases at equal distances are looked at.
+        the number of its cases. Of a large plan, some cases are looked at.
         """
-        scenes = list(self._scenes(range(0, self.count, -(-self.count // LOOKED_AT))))
+        scenes = list(self.scenes_looked_at())
         summaries = ((n, lists(one for one in scene.warnings() if one.code != "idle")) for n, scene in enumerate(scenes))
-        return counted(summaries, f"{number_of(len(scenes), 'case')}{' looked at' * (self.count > LOOKED_AT)}")
+        return counted(summaries, f"{number_of(len(scenes), 'case')}{' looked at' * self.is_large}")
 
-    def _scenes(self, numbers):
-        """Generator of the scenes of these cases, without refused ones."""
-        for number in numbers:
+    @property
+    def is_large(self):
+        """Whether only some cases are looked at: more would take longer than a case."""
+        return self.count > LOOKED_AT
+
+    def scenes_looked_at(self):
+        """Generator of the scenes of all cases, without refused ones; of a large plan, of cases drawn at random: cases at equal
+        distances could all have one value of the last key.
+        """
+        numbers = np.random.default_rng(0).permutation(self.count)[:LOOKED_AT] if self.is_large else range(self.count)
+        for number in sorted(map(int, numbers)):
             with contextlib.suppress(SceneError):
                 yield self.case(number)
 
@@ -183,7 +199,7 @@ class Plan:
         """{case: earlier case} of cases that differ only in keys without effect; {} for a large plan."""
         seen: dict[str, int] = {}
         found = {}
-        for number in range(self.count if self.count <= LOOKED_AT else 0):
+        for number in range(0 if self.is_large else self.count):
             with contextlib.suppress(SceneError):
                 first = seen.setdefault(repr(idle_keys.signature(self.case(number))), number)
                 if first != number:
@@ -191,12 +207,9 @@ class Plan:
         return found
 
     def without_temperatures(self):
-        """Numbers of the isothermal cases if other cases are thermal; [] if all are alike, or for a large plan."""
-        found: dict[bool, list[int]] = {}
-        for number in range(self.count if self.count <= LOOKED_AT else 0):
-            with contextlib.suppress(SceneError):
-                found.setdefault(self.case(number).isothermal, []).append(number)
-        return found.get(True, []) if len(found) > 1 else []
+        """Numbers of the isothermal cases if other cases are thermal; [] if all are alike."""
+        refused, isothermal = self._look()
+        return isothermal if len(isothermal) < self.count - len(refused) else []
 
     def _check_values(self, axis, found):
         place = self.axes.index(axis)

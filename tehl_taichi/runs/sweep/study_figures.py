@@ -7,18 +7,16 @@ import numpy as np
 
 from tehl_taichi.errors import StoreError
 from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
+from tehl_taichi.runs.sweep.main_effects import main_effects
 from tehl_taichi.runs.sweep.study_labels import column_name, key_name, of_column, of_key
-from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
+from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of, usual_columns
 from tehl_taichi.values.checks import known_names, nearest
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.digits import part_of
-from tehl_taichi.view.figures import palette, unknown_errors
+from tehl_taichi.view.figures import logarithmic_axis, palette, unknown_errors
 from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
 from tehl_taichi.view.figures.map_panels import bar
 
-# drawn by default: the first of each line that the study has
-USUAL = ((JUDGED,), ("transient_h_min_m", "steady_h_c_m"), ("transient_p_max_Pa", "steady_p_max_Pa"),
-         ("transient_friction_coefficient_mean", "steady_friction_coefficient"), ("transient_film_max_C", "steady_film_max_C"))
 FILM = "transient_h_min_m"
 TOLD = 120  # cells of a map with their values in them
 TICKS = 12
@@ -31,7 +29,7 @@ def write_all(study, folder, quantity=None, page=None):
     quantity: a column of its table (None: the usual ones); page: a :class:`FigureStyle`. Raises StoreError for an unknown
     column, or if there is nothing to draw.
     """
-    chosen = [_known(study, quantity)] if quantity else usual(study)
+    chosen = [_known(study, quantity)] if quantity else usual_columns(study.values)
     if not chosen:
         raise StoreError(f"{study.path} has no result to draw yet")
     page = page or FigureStyle()
@@ -49,11 +47,6 @@ def _figures(study, chosen):
             yield f"{name}_points", points, name
     if JUDGED in chosen and FILM in study.values:
         yield "Fi_over_h_min", index_over_film
-
-
-def usual(study):
-    found = (next((name for name in names if name in study.values), None) for names in USUAL)
-    return [name for name in found if name]
 
 
 def _known(study, quantity):
@@ -115,7 +108,8 @@ def heat_map(page, study, name):
         ax.set(**{f"{axis}label": key_label})
     if values.size <= TOLD and 3 * values.shape[1] * page.text < 47 * page.inches:
         _write_values(ax, values)
-    page.title(figure, f"{study.plan.scene.name}: {column_name(name)}")
+    missing = " (hatched: no result)" if np.isnan(values).any() else ""
+    page.title(figure, f"{study.plan.scene.name}: {column_name(name)}{missing}")
     return figure
 
 
@@ -129,12 +123,12 @@ def _write_values(ax, values):
 
 
 def points(page, study, name):
-    """Figure of the quantity of all cases with its error over each key."""
+    """Figure of the quantity of all cases with its error over each key, with the share of the spread due to it."""
     values, errors, label = with_errors(study, name)
-    keys = study.plan.keys
+    keys, effects = study.plan.keys, main_effects(study, name)
     most = 1 if page.narrow else 3
     rows, columns = -(-len(keys) // most), min(most, len(keys))
-    figure, axes = page.figure(rows, columns, 1.2 * page.row(columns) * rows, sharey=True)
+    figure, axes = page.figure(rows, columns, (1.35 if effects.shares else 1.2) * page.row(columns) * rows, sharey=True)
     for ax, key in itertools.zip_longest(axes.flat, keys):
         if key is None:
             ax.set_visible(False)
@@ -143,6 +137,7 @@ def points(page, study, name):
         ax.errorbar(x, values, errors, fmt="o", alpha=0.7, **palette.BARS)
         unknown_errors.draw(ax, x, values, errors)
         _dress(ax, x_label, x, ticks, numeric(study, key))
+        ax.set_title(effects.words(key), fontsize="small")
         if ax.get_xscale() == "linear" and numeric(study, key):
             ax.locator_params(axis="x", nbins=5)
     for ax in axes[:, 0]:
@@ -183,10 +178,8 @@ def _dress(ax, x_label, x, ticks, in_numbers):
     if not in_numbers:
         places = dict(zip(x.tolist(), ticks))
         ax.set_xticks(list(places), list(places.values()))
-    elif len(x) > 2 and (x > 0).all() and x.max() > 30 * x.min():
-        ax.set_xscale("log")
-        ax.xaxis.set_major_formatter("{x:g}")  # plain numbers: no text is read as mathematics
-        ax.xaxis.set_minor_formatter("")
+    else:
+        logarithmic_axis.choose_x(ax, x)
 
 
 def numeric(study, key):

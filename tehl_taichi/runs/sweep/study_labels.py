@@ -26,6 +26,12 @@ def key_name(key):
     return KEYS.get(full, key)
 
 
+def key_unit(scene, key):
+    """Unit of the values of a key, as they are given: "N/m", "" for a pure number or a word."""
+    found = unit(scene, key)
+    return "" if found == "1" else found
+
+
 def column_name(name):
     """Name of a column: "passage h_min" for transient_h_min_m; the words of the column if it has no name."""
     entry = next((one for one in quantities.ENTRIES if f"{one.part}_{one.key}".replace(".", "_") == name), None)

@@ -8,7 +8,9 @@ STUDY/cases/0001.zarr             the store of a case
 
 import contextlib
 import csv
+import html
 import io
+import itertools
 import json
 import math
 import os
@@ -25,14 +27,16 @@ from tehl_taichi.commit import commit
 from tehl_taichi.disk.files import disk_errors, json_of, reason, replace, store_error
 from tehl_taichi.disk.locked_folder import LockedFolder, locked_folder
 from tehl_taichi.disk.user_files import check_outside
-from tehl_taichi.errors import Interrupted, SceneError, StoreError, extra
+from tehl_taichi.errors import Interrupted, SceneError, StoreError, UnknownName, extra
 from tehl_taichi.runs.sweep import case_records as records
 from tehl_taichi.runs.sweep import summary_columns
-from tehl_taichi.runs.sweep.axis_syntax import all_numbers, word
+from tehl_taichi.runs.sweep.axis_syntax import all_numbers, short_word, word
+from tehl_taichi.runs.sweep.main_effects import main_effects, usual_effects
 from tehl_taichi.runs.sweep.plan import ONE, Plan, unit
+from tehl_taichi.runs.sweep.summary_columns import JUDGED
 from tehl_taichi.store import array_file
 from tehl_taichi.store.integrity import ROOT, missing_choice
-from tehl_taichi.values.checks import integer
+from tehl_taichi.values.checks import integer, known_names, nearest
 from tehl_taichi.values.coded_warning import summary_for_reader
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.digits import number_of
@@ -42,6 +46,7 @@ TABLE, CASES, PLAN = "table.csv", "cases", "study"  # PLAN: the attribute that m
 SPELLED = {"deg C": "degC"}  # units of a scene, as the arrays of all stores have them
 SHARE = 0.05  # of the time, at most, goes into writing table and arrays
 EVERY = 1.0  # s between two writes, at least
+MOST_SHOWN = 60  # cases in a notebook
 
 
 class Study(LockedFolder):
@@ -151,6 +156,68 @@ class Study(LockedFolder):
     def __repr__(self):
         counts = ", ".join(f"{count} {word}" for word, count in self.counts.items() if count)
         return f"<Study {self.path}: {number_of(len(self), 'case')}, {counts}>"
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """Column of the table, as an array (cases,): study["judged_Fi"]. Raises UnknownName; `list(study)` has all names."""
+        if not (isinstance(name, str) and name in self.values):
+            raise UnknownName(f"{shown(name)} is no column of this study{nearest(name, self.values)}; "
+                              f"{known_names(self.values, 'list(study)')}")
+        return self.values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of all columns with numbers."""
+        return iter(self.values)
+
+    def __contains__(self, name: object) -> bool:
+        """Whether `study[name]` is a column."""
+        return name in self.values
+
+    def _ipython_key_completions_(self):
+        return list(self)
+
+    def _repr_html_(self):
+        """Its table, for notebooks: keys, status and the usual numbers of the first cases."""
+        names = (*self.plan.keys, "status", *summary_columns.usual_columns(self.values))
+        heads = "".join(f"<th>{html.escape(name)}</th>" for name in ("case", *names))
+        rows = "".join(f"<tr><td>{row['case']}</td>{''.join(f'<td>{_shown_cell(row[name])}</td>' for name in names)}</tr>"
+                       for row in itertools.islice(self.rows(), MOST_SHOWN))
+        return f"<table><caption>{html.escape(repr(self))}</caption><tr>{heads}</tr>{rows}</table>"
+
+    def main_effects(self, name: str = JUDGED) -> dict:
+        """Share of the spread of a column that each key accounts for, to see which key matters.
+
+        Parameters
+        ----------
+        name : str
+            A column of the table.
+
+        Returns
+        -------
+        dict
+            "shares": {key: 0 to 1} (keys that change together are one, "srr, speed"); "together": share of several keys
+            together, None if cases of a grid have no result; "why": reason why there are no shares, else "".
+
+        Raises
+        ------
+        UnknownName
+            The study has no such column.
+
+        Notes
+        -----
+        All combinations: first-order index of Sobol (1993), the variance of the mean over all other keys over the whole
+        variance. Samples: variance of the key's part of a fit by a sum of parabolas; "together" is what the fit leaves.
+
+        Examples
+        --------
+        >>> import tehl_taichi as tehl
+        >>> line = tehl.scene("smooth-line").replace(**{"grid.nx": 32, "thermal.on": False})
+        >>> study = tehl.sweep(line, {"speed": [5.0, 10.0], "load": ["800 N/mm", "900 N/mm"]}, "effects.zarr", workers=1)
+        >>> shares = study.main_effects("steady_h_c_m")["shares"]
+        >>> shares["speed"] > 0.9 > 0.1 > shares["load"]
+        True
+        """
+        self[name]
+        return main_effects(self, name).to_dict()
 
     @property
     def counts(self) -> dict[str, int]:
@@ -276,7 +343,8 @@ class Study(LockedFolder):
         """The JSON object of `tehl sweep --json`."""
         converged = self.counts["converged"]
         return {"cases": len(self), "converged": converged, "failed": len(self) - converged, "study": str(self.path),
-                "table": str(self.table), "results": self.results()}
+                "table": str(self.table), "main_effects": {name: one.to_dict() for name, one in usual_effects(self).items()},
+                "results": self.results()}
 
     def to_xarray(self) -> Any:
         """Table as an xarray.Dataset over the swept keys. Raises StoreError without xarray, and for a damaged file."""
@@ -298,6 +366,11 @@ class Study(LockedFolder):
 
         return study_figures.write_all(self, folder or default_folder(self.path), quantity,
                                        FigureStyle(format, dpi, width, force))
+
+
+def _shown_cell(value):
+    """Value of a row for a notebook."""
+    return "" if value != value else html.escape(short_word(value))
 
 
 def _cell(value):

@@ -16,6 +16,15 @@ PART = re.compile(r"(fatigue(_by_surface_[ab])?(_resolved|_averaged)?(_below|_co
                   r"|contact_alone(_by_surface_[ab])?(_von_mises)?|von_mises|run_in(_by_surface_[ab])?"
                   r"|[^_]+)_")  # of a summary, inside others
 JUDGED = "judged_Fi"  # the index that decides the verdict
+# shown by default: the first of each line that a study has
+USUAL = ((JUDGED,), ("transient_h_min_m", "steady_h_c_m"), ("transient_p_max_Pa", "steady_p_max_Pa"),
+         ("transient_friction_coefficient_mean", "steady_friction_coefficient"), ("transient_film_max_C", "steady_film_max_C"))
+
+
+def usual_columns(known):
+    """Columns that are shown by default, of those that are known."""
+    found = (next((name for name in names if name in known), None) for names in USUAL)
+    return [name for name in found if name]
 
 
 def of_case(summary):

@@ -8,12 +8,11 @@ import numpy as np
 
 from tehl_taichi.runs.traction.traction_rows import AXES, SPEED, SRR, TEMPERATURE, axis
 from tehl_taichi.values.digits import printed_unit
-from tehl_taichi.view.figures import palette, unknown_errors
+from tehl_taichi.view.figures import logarithmic_axis, palette, unknown_errors
 
 PANELS = (("friction coefficient", "friction_coefficient", ""), ("central film", "h_c_m", "m"),
           ("largest film temperature", "film_max_C", "°C"))
 ZERO = 1e-12    # of a friction coefficient in pure rolling
-DECADES = 30.0  # ratio of the ends of an axis that is logarithmic
 
 
 def drawn(page, found):
@@ -65,16 +64,7 @@ def _along(ax, found):
     factor, unit = scale(found)
     ax.set_xlabel(f"{name} ({unit})" if unit else name)
     x = np.array([row[axis(found.study.plan, found.across)[0]] * factor for row in found.rows])
-    if x.min() > 0 and (x.max() > DECADES * x.min() or _evenly_in_logarithm(x)):
-        ax.set_xscale("log")
-        ax.xaxis.set_major_formatter("{x:g}")  # plain numbers: no text is read as mathematics
-        ax.xaxis.set_minor_formatter("")
-
-
-def _evenly_in_logarithm(x):
-    """Whether three or more values have equal ratios, as from low:high:N:log."""
-    steps = np.diff(np.log(np.unique(x)))
-    return len(steps) > 1 and np.ptp(steps) < 1e-6 * steps.max()
+    logarithmic_axis.choose_x(ax, x)
 
 
 def scale(found):

@@ -20,7 +20,7 @@ def maps(page, moments):
     film = shown.draw(1, f["film"] * 1e6, "film", cmap=palette.FILM, vmin=low * 1e6, vmax=top * 1e6)
     shown.bar(film, slice(1, 2), "µm")
     window = "; dashed: zoom window" * zoom_maps.outline(shown, moments, n)
-    page.title(shown.figure, f"{moments.store.scene.name}: pressure and film, {moments.peak(n)}{window}")
+    page.title(shown.figure, f"{moments.named}: pressure and film, {moments.peak(n)}{window}")
     return shown.figure
 
 
@@ -50,5 +50,5 @@ def temperature_maps(page, moments):
             image = panel.draw(k, f[name], text, cmap=palette.TEMPERATURE, vmin=low, vmax=top)
         panel.bar(image, shown, label)
     scene = moments.store.scene
-    page.title(panel.figure, f"{scene.name}: temperatures, {moments.peak(n)}{'; ' * scene.transient}{carrier(scene)}")
+    page.title(panel.figure, f"{moments.named}: temperatures, {moments.peak(n)}{'; ' * scene.transient}{carrier(scene)}")
     return panel.figure

@@ -26,6 +26,7 @@ SIZES = ((5.0, 8.5, 17.0, 60.0), (6.0, 7.0, 9.0, 32.0))  # widths, cm: text, poi
 LETTER = 0.5            # of the text's size: mean width of a letter
 ROWS, LINE = 4, 1.35    # of a legend: as many have room in a figure; height of another one, of the text's size
 WIDEST = 0.55           # the same, of a line of a title with many wide ones
+BESIDE, LEAST = 4.0, 8  # height of the title and the x label of a panel, of the text's size; letters in a line of its y label
 SAID = {"png": {"Software": user_files.PROGRAM}, "pdf": {"Creator": user_files.PROGRAM, "CreationDate": None},
         "svg": {"Title": user_files.PROGRAM, "Date": None}}  # by which --force knows it; the same figure is the same file
 
@@ -156,7 +157,7 @@ class FigureStyle:
             return self._finished(draw)
 
     def _finished(self, draw):
-        return self.fitted(spell_letters(draw()))
+        return self.fitted(wrap_labels(spell_letters(draw())))
 
     def fitted(self, figure):
         """The figure without the empty height that panels with equal scales leave."""
@@ -196,6 +197,17 @@ def spell_letters(figure):
     for text in figure.findobj(Text):
         if text.get_text() != (plain_text := printable(text.get_text(), "\n")):
             text.set_text(plain_text)
+    return figure
+
+
+def wrap_labels(figure):
+    """The figure with the y labels in several lines that are longer than their panels, which would be cut at its edge."""
+    for ax in figure.axes:
+        place, size = ax.get_subplotspec(), ax.yaxis.label.get_size()
+        if place is not None:
+            height = figure.get_figheight() * 72 * len(place.rowspan) / place.get_gridspec().nrows
+            letters = max(int((height - BESIDE * size) / (1.1 * WIDEST * size)), LEAST)
+            ax.set_ylabel(textwrap.fill(ax.get_ylabel(), letters))
     return figure
 
 

@@ -108,7 +108,7 @@ class Frames:
         self.still = self.canvas.copy_from_bbox(self.figure.bbox)
 
     def _says(self, n):
-        return f"{self.store.scene.name}: {self.moments.says(n)}"
+        return f"{self.moments.named}: {self.moments.says(n)}"
 
     def picture(self, n):
         """Picture of entry n as an array (rows, columns, 3) of bytes."""

@@ -23,7 +23,7 @@ def interference(page, moments, light):
     _draw(ax, store.scene, x, y, light.colours(path))
     middle = float(index[int(np.argmin(np.abs(moments.x))), moments.row])
     _draw_scale(scale, light, middle, moments.film_top([n]))
-    page.title(figure, f"{store.scene.name}: interference colours in {light.words}, {moments.peak(n)}")
+    page.title(figure, f"{moments.named}: interference colours in {light.words}, {moments.peak(n)}")
     return figure
 
 

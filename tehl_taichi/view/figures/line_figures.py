@@ -21,7 +21,7 @@ def carrier(scene):
 def set_title(page, figure, moments, what, shown, more=""):
     """Set the title: scene, moment if there is one, then `more`."""
     alone = f", {moments.says(shown[0])}" if len(shown) == 1 else ""
-    page.title(figure, f"{moments.store.scene.name}: {what}{alone}{'; ' * bool(more)}{more}")
+    page.title(figure, f"{moments.named}: {what}{alone}{'; ' * bool(more)}{more}")
 
 
 def start_style(colour):

@@ -43,6 +43,11 @@ class Moments:
         """Half-width of the contact, m."""
         return Scales.of(self.store.scene).a
 
+    @property
+    def named(self):
+        """Name of the scene with the length in which axes count, such as "gear (a = 0.362 mm)"."""
+        return f"{self.store.scene.name} (a = {1e3 * self.a:.3g} mm)"
+
     @cached_property
     def moved(self):
         """Centre of the feature over a, at every entry after the steady start."""

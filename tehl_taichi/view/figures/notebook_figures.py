@@ -15,8 +15,13 @@ class Figures(dict):
         return f"<tehl figures: {', '.join(self)}>"
 
     def _repr_html_(self):
-        return "".join(f'<figure><img alt="{name}" src="data:image/png;base64,{self._png(figure)}"></figure>'
-                       for name, figure in self.items())
+        return "".join(f'<figure><img alt="{name}" {self._size(figure)} src="data:image/png;base64,{self._png(figure)}">'
+                       "</figure>" for name, figure in self.items())
+
+    def _size(self, figure):
+        """Attributes of its size, so that a page has room for it before it is shown; a narrow page makes it smaller."""
+        wide, high = (round(inches * self.dpi) for inches in figure.get_size_inches())
+        return f'width="{wide}" height="{high}" style="max-width: 100%; height: auto"'
 
     def _png(self, figure):
         draft = io.BytesIO()

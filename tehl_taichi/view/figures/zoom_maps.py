@@ -25,7 +25,7 @@ def zoom(page, moments):
         _draw(figure, row, moments, window, n, shown)
         row[0].set_ylabel(f"y / a{half_axis(store.scene)}")
     p, many = max(float(one.fields(n, ["pressure"])["pressure"].max()) for one in windows), "s" * bool(windows[1:])
-    page.title(figure, f"{store.scene.name}: zoom window{many}, cells {store.scene.zoom.factor} times finer, "
+    page.title(figure, f"{moments.named}: zoom window{many}, cells {store.scene.zoom.factor} times finer, "
                        f"{moments.says(n)}, p_max {p / 1e9:.2f} GPa")
     return figure
 

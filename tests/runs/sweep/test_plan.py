@@ -215,4 +215,4 @@ def test_warnings_of_the_scenes_are_those_of_their_runs():
 def test_of_many_cases_some_are_looked_at():
     made = plan(scene("smooth-line").replace(**{"oil.name": "mineral-vg220"}), {"srr": "0:0.1:250"})
     (sentence,) = made.warnings()
-    assert sentence.endswith("(84 of 84 cases looked at)") and "oil.alpha_40" in sentence
+    assert sentence.endswith("(100 of 100 cases looked at)") and "oil.alpha_40" in sentence

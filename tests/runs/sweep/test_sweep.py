@@ -19,7 +19,7 @@ from fake_cases import cubed, formula, greedy, square, unfinished
 from tehl_taichi.errors import RuntimeUnavailable, StoreError
 from tehl_taichi.report import study_page
 from tehl_taichi.runs.sweep import case_records as records
-from tehl_taichi.runs.sweep import pool, study_figures, study_labels, sweeping
+from tehl_taichi.runs.sweep import pool, study_labels, summary_columns, sweeping
 from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.runs.sweep.study_table import Study
 from tehl_taichi.scene import SceneError, scene
@@ -262,7 +262,7 @@ def test_the_index_of_a_study_is_that_of_the_verdict_of_each_case(tmp_path, monk
                                "more.")
     assert "largest is Fi = 1.2:" in answer.sentences[0] and "smallest is Fi = 0.8:" in answer.sentences[1]
     monkeypatch.setenv("COLUMNS", "200")
-    assert "0.900 ± 0.020" in here("show", study.path).stdout and study_figures.usual(study)[0] == "judged_Fi"
+    assert "0.900 ± 0.020" in here("show", study.path).stdout and summary_columns.usual_columns(study.values)[0] == "judged_Fi"
 
 
 def test_pictures_of_a_study(study, tmp_path):
