@@ -20,7 +20,7 @@ STRAIGHT = 0.0175               # across over depth: grids change trajectories b
 SMALL = 0.05                    # of the largest tension along a trajectory: less may stay near zero over a long way
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CrackSide:
     """Result of one side: its :class:`CrackStart`, the trajectory (complex points, m), the tension (Pa) along it, the crack
     path.
@@ -36,7 +36,7 @@ class CrackSide:
         return f"<Side from x = {self.start.x * 1e6:.1f} um: {points}, stopped by {self.path.why}>"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CrackResult:
     """Crack paths on both sides of a feature.
 

@@ -13,7 +13,7 @@ from tehl_taichi.values.quantity import Number
 LARGEST = Number("", "Pa", -1e12, 1e12, usual=4e8, least=1e5)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Points:
     """Fatigue of given stress histories: the result of :func:`tehl_taichi.fatigue` for an array.
 

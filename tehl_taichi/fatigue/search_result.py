@@ -43,7 +43,7 @@ SHARED = (*BOTH, "passed", "under_row_depth", "fatigue_depth",
 OTHER, EQUAL = "other_", ("component", "direction", "of_circle")  # of arrays of the other body; dimensions equal in both
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SearchResult:
     """Result of a fatigue search; an array is None where it was not computed.
 

@@ -11,7 +11,7 @@ from tehl_taichi.march.step_output import fields_of, scalars_of
 from tehl_taichi.pressure import fields
 
 
-@dataclass
+@dataclass(eq=False)  # arrays have no single answer to ==
 class Snapshot:
     """One accepted state of a run: the steady start or a time step, in SI units.
 
@@ -31,7 +31,7 @@ class Snapshot:
         {name: number}: p_max_Pa, h_min_m, friction_coefficient, residual ...
     state : dict
         All that :func:`tehl_taichi.march` needs to continue (f64, large). Available while the snapshot is the newest;
-        RuntimeError later.
+        RuntimeError later. Copies and pickled snapshots have it if it was read before.
     error, unknown, parts : dict
         Of a steady start: error bars of its numbers (None where unknown), why they are unknown, and {"grid", "domain"} of each.
     grids : list
@@ -70,6 +70,10 @@ class Snapshot:
         when, s = f"step {self.step}" if self.step else "steady start", self.scalars
         return (f"<tehl.Snapshot {when}: {self.x.size} x {self.y.size} nodes, p_max {s['p_max_Pa'] / 1e9:.2f} GPa, "
                 f"h_min {s['h_min_m'] * 1e6:.2g} um>")
+
+    def __getstate__(self):
+        """Contents for copies and other processes, without the solvers behind them."""
+        return {**vars(self), "make_state": functools.partial(gone, self.step)}
 
     @functools.cached_property
     def state(self) -> dict:
