@@ -48,7 +48,8 @@ class Commands(typer.core.TyperGroup):
             error.message = _with_value(error)
             raise
         except KeyboardInterrupt as stop:
-            raise Interrupted(_sentence(stop)) from None
+            with typed_options():
+                raise Interrupted(_sentence(stop)) from None
 
 
 @contextlib.contextmanager

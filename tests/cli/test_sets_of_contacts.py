@@ -110,3 +110,20 @@ def test_parts_of_the_time_are_shares_in_per_cent(capsys):
     print_budget(SimpleNamespace(rows=lambda: [("passage", 7.5, 0.75), ("fatigue", 2.5, 0.25)]))
     shown = capsys.readouterr().out
     assert "75 %" in shown and "25 %" in shown and "7.50" in shown
+
+
+def test_an_interrupted_command_names_its_option(tmp_path, monkeypatch):
+    def stopped(job, *_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(case, "run_case", stopped)
+    found = here("flank", "fzg-c", "--steady", "--at", "C", *QUICK, "--out", "f", cwd=tmp_path)
+    assert found.returncode == 4 and "after 0 of 1 contact; repeat the command with --out f to resume" in found.stderr
+
+
+def test_a_row_without_a_name_is_called_by_its_place(tmp_path):
+    from tehl_taichi.runs.flank.positions import Position
+
+    named, bare = (Position(-1.2345e-3, 1e-2, 1e-2, 5.0, 4.0, 1e5, 1.0, point=point) for point in ("B", ""))
+    assert (named.short, named.full) == ("B", "B, x_pl = -1.234 mm")
+    assert (bare.short, bare.full) == ("-1.23 mm", "x_pl = -1.234 mm")

@@ -4,7 +4,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from tehl_taichi.errors import DiskError, Interrupted, StoreError, interrupt
+from tehl_taichi.errors import DiskError, Interrupted, StoreError, are_options_typed, interrupt
 from tehl_taichi.runs import passages_left, single_run
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.single_run import check_version
@@ -43,7 +43,9 @@ def computed(made, with_outcome, scenes, workers=None, threads=None, progress=No
 
 
 def _remedy(made):
-    return f"repeat the command with --out {typed(made.folder)} to resume"
+    """How a set that stopped is continued."""
+    again = f"command with --out {typed(made.folder)}" if are_options_typed() else f"call with folder={str(made.folder)!r}"
+    return f"repeat the {again} to resume"
 
 
 def summaries(scenes, folder, workers=None, threads=None, progress=None):

@@ -162,7 +162,7 @@ def test_an_interrupted_flank_says_how_far_it_is(tmp_path, monkeypatch, name, by
         return position(job)
 
     monkeypatch.setattr(case, "run_case", until_c)
-    with pytest.raises(KeyboardInterrupt, match=f"{by} after 3 of 7 contacts; repeat .* --out .*/f to resume"):
+    with pytest.raises(KeyboardInterrupt, match=f"{by} after 3 of 7 contacts; repeat the call with folder='.*/f' to resume"):
         tehl.flank("fzg-c", positions=7, steady=True, folder=tmp_path / "f", workers=1)
     waiting = [(at.point, reason) for at, reason in tehl.open(tmp_path / "f").failed]
     assert [point for point, _ in waiting] == ["A", "C", "D-", "D+", "E"] and "has not run yet" in waiting[1][1]
