@@ -141,10 +141,7 @@ def speed(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: boo
                "memory_mb": "{:.0f} MB", "planes_per_s_core": "{:.2g} planes/s core"}
     shown = [{**row, "detail": ", ".join(form.format(row[key]) for key, form in details.items() if key in row)} for row in rows]
     columns = {"what": "{}", "seconds": "{:.3f}", "target": "{:g}", "detail": "{}"}
-    if not as_json:
-        table("speed", shown, columns)
-    results.documented(columns, texts(shown, columns))
-    results.finish(rows, lambda plt: suite.chart(plt, rows), as_json)
+    results.show("speed", rows, columns, lambda plt: suite.chart(plt, rows), as_json, shown)
 
 
 def scaling(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, write: bool = WRITE,
@@ -157,10 +154,7 @@ def scaling(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: b
     rows = suite.run(quick, threads or cores(), thermal, say)
     columns = {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "speed_up": "{:.2f}", "node_ns": "{:.0f}",
                "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}", "node_B": "{:.0f}"}
-    if not as_json:
-        table("scaling", rows, columns)
-    results.documented(columns, texts(rows, columns))
-    results.finish(rows, lambda plt: suite.chart(plt, rows), as_json)
+    results.show("scaling", rows, columns, lambda plt: suite.chart(plt, rows), as_json)
 
 
 def sweep(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE,
@@ -170,9 +164,8 @@ def sweep(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: boo
 
     results = Results(out, "sweep", force)
     rows = suite.run(quick, workers, say)
-    if not as_json:
-        table("cases in parallel", rows, {"workers": "{}", "seconds": "{:.1f}", "cases_s": "{:.1f}", "speed_up": "{:.2f}"})
-    results.finish(rows, lambda plt: suite.chart(plt, rows), as_json)
+    columns = {"workers": "{}", "seconds": "{:.1f}", "cases_s": "{:.1f}", "speed_up": "{:.2f}"}
+    results.show("cases in parallel", rows, columns, lambda plt: suite.chart(plt, rows), as_json)
 
 
 def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: bool = FORCE, write: bool = WRITE,
@@ -196,6 +189,6 @@ def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: b
 
 
 bench = typer.Typer(no_args_is_help=True, help="Run a benchmark suite. Each suite prints a table; its numbers do not change "
-                                               "the exit code.")
+                                               "the exit code, but a scene of `stability` that fails does (1).")
 for _suite in (stability, conclusions, verdict, cracks, accuracy, speed, zoom, scaling, sweep, profile):
     bench.command(cls=Command)(_suite)

@@ -58,6 +58,14 @@ class Results:
         if as_json:
             print_json(found)
 
+    def show(self, title, rows, columns, chart, as_json, shown=None):
+        """Print and document the table of rows (or of `shown`) in the formats `columns`, then :meth:`finish`."""
+        shown = shown or rows
+        if not as_json:
+            table(title, shown, columns)
+        self.documented(columns, texts(shown, columns))
+        self.finish(rows, chart, as_json)
+
     def documented(self, columns, rows, keys=0):
         """Write the suite's table into the documentation if requested; rows: lists of texts; keys: see
         :func:`tehl_cli.bench_page.write`.
