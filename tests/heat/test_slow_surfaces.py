@@ -110,6 +110,18 @@ def test_the_memory_loses_heat_as_its_kernel_does():
     assert settled == pytest.approx(whole[-1], rel=5e-3)
 
 
+@pytest.mark.parametrize("ratio, slowest", [(0.2, 2500.0), (0.5, 400.0), (1.0, 100.0), (3.0, 100.0)])
+def test_a_surface_is_fast_where_sideways_conduction_takes_less_than_a_hundredth(ratio, slowest):
+    """Of the rise by a steady flux over the whole length of the contact; ratio: b/a. Time in a^2/alpha, its root from 0 on."""
+    from tehl_taichi.heat.conduction_modes import is_fast, widths
+
+    assert is_fast(1.01 * slowest, 1.0, ratio) and not is_fast(0.99 * slowest, 1.0, ratio)
+    assert is_fast(1.01 * slowest, 2e-4, ratio * 2e-4)
+    root = np.linspace(0.0, math.sqrt(2 / slowest), 1001)
+    kept = np.prod([1 / np.sqrt(1 + 4 * root**2 / width**2) for width in widths(slowest, 1.0, ratio)], axis=0)
+    assert 0.99 < kept.mean() < 1.0
+
+
 def test_fast_surfaces_and_lines_lose_nothing_sideways():
     from tehl_taichi.heat import conduction_modes
     from tehl_taichi.heat.bodies import ConductingBody
