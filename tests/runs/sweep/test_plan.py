@@ -116,6 +116,20 @@ def test_a_corner_that_cannot_run_is_told_of_and_the_others_stay():
     assert list(found) == [1] and "half-width" in found[1]
 
 
+def test_samples_that_cannot_run_are_told_of_and_the_others_stay():
+    """Each is the only one with its values, which is no mistake of a value."""
+    made = plan(GEAR.replace(**{"grid.x_max": 1.5}), {"height": "1e-6:20e-6", "srr": "-0.3:0.3"}, samples=8)
+    found = made.refused()
+    assert 0 < len(found) < 8 and all("half-width" in why for why in found.values())
+    assert max(made.changes(n)["height"] for n in range(8) if n not in found) < min(made.changes(n)["height"] for n in found)
+
+
+def test_a_word_beside_a_number_is_no_end_of_an_interval():
+    for pair in (("auto", -4.0), (-4.0, "auto")):
+        made = plan(GEAR, {"grid.x_min": pair, "srr": "-0.3:0.3"}, samples=4)
+        assert sorted(map(str, made.coordinate("grid.x_min")[1])) == ["-4.0", "-4.0", "auto", "auto"]
+
+
 def test_a_latin_hypercube_has_a_sample_in_every_part():
     over = {"srr": (-0.3, 0.3), "speed": "2:40:log", "rheology.law": ["eyring", "newtonian"], "thermal.nodes": "5:13"}
     made = plan(GEAR, over, samples=20, seed=3)
