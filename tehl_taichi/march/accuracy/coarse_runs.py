@@ -115,7 +115,7 @@ def _reading(entry, scalar, scene):
     """Reading of a number that is no extreme over the nodes."""
     value = entry.of(scalar(entry.series), None)
     if entry.key in quantities.HEAT:
-        return readings.temperature_reading(value, scene)
+        return readings.temperature_reading(value, scene, passing=True)
     return GridReading(value, positive=entry.positive)
 
 

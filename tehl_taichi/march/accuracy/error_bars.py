@@ -50,11 +50,12 @@ class GridReading:
 
     blur: largest distance of the true extreme from the extreme over nodes; place: its position in each frame of reference;
     cell: the spacing there (() and nan for a number that is no extreme); doubt: reason why this grid does not resolve the
-    number, or ""; lost: the value is not even a step towards the next grid's; settled: iteration error of the solution;
-    positive: the number is positive by nature, as a film is; course: largest pressures by parts of the passage (nan: none), if
-    several grids may remove the doubt, else (); swayed: a pressure that this grid does not resolve affects the number; spread:
-    for a number of a distribution, which each finer grid samples again, with more short waves, the part of the last difference
-    but one that may remain as error, else 0.
+    number, or ""; lost: the value is not even a step towards the next grid's; settled: iteration error of the solution; zero:
+    value from which parts of the number count (of a temperature the inlet's, so that no bar depends on the scale); chance:
+    error that the only difference between two grids may hide; positive: the number is positive by nature, as a film is; course:
+    largest pressures by parts of the passage (nan: none), if several grids may remove the doubt, else (); swayed: a pressure
+    that this grid does not resolve affects the number; spread: for a number of a distribution, which each finer grid samples
+    again, with more short waves, the part of the last difference but one that may remain as error, else 0.
     """
 
     value: float
@@ -64,10 +65,17 @@ class GridReading:
     doubt: str = ""
     lost: bool = False
     settled: float = 0.0
+    zero: float = 0.0
+    chance: float = 0.0
     positive: bool = False
     course: tuple = ()
     swayed: bool = False
     spread: float = 0.0
+
+    @property
+    def size(self):
+        """Distance of the value from its zero."""
+        return abs(self.value - self.zero)
 
 
 def bar(readings, passing=False):
@@ -90,13 +98,18 @@ def bar(readings, passing=False):
     if last.place and all(abs(a - b) > MOVED * before.cell for a, b in zip(last.place, before.place)):
         return None, Reason("its place differs from that on the next coarser grid", "place")
     steps = [b.value - a.value for a, b in zip(known[:-1], known[1:])][::-1]
-    if abs(steps[0]) > HOPELESS * abs(last.value) and not last.spread:
-        return None, Reason(f"it still changes by {abs(steps[0] / last.value):.0%} from grid to grid", "changes")
-    accident = ACCIDENT[passing] * abs(last.value) if len(steps) == 1 and (passing or not last.place) else 0.0
+    if abs(steps[0]) > max(HOPELESS * last.size, last.chance) and not last.spread:
+        return None, Reason(f"it still changes by {abs(steps[0]) / last.size:.0%} from grid to grid", "changes")
+    accident = _accident(last, passing) if len(steps) == 1 else 0.0
     sway = SWAY * max(map(abs, steps[:2])) if last.swayed else 0.0
     left = _left_of_spread(steps, last.spread) if last.spread else _left(steps, bool(last.place), passing)
     size = max(accident, last.settled, BLURRED * last.blur, left, least, sway)
     return (None, WHOLE) if last.positive and size >= last.value else (size, "")
+
+
+def _accident(reading, passing):
+    """Error that the only difference between grids may hide; of extremes at rest their blur is known."""
+    return max(ACCIDENT[passing] * reading.size if passing or not reading.place else 0.0, reading.chance)
 
 
 def _left_of_spread(steps, part):
@@ -127,7 +140,7 @@ def _bar_of_passage(known):
     excess = max(0.0, _may_reach(*rival) / max(top[2] + abs(top[2] - top[1]), _may_reach(*top)) - 1)
     if excess > EXCEEDS:
         return 0.0, last.doubt or _rival(rival)
-    values, least = [reading.value for reading in known[-3:]], excess * abs(last.value)
+    values, least = [reading.value for reading in known[-3:]], excess * last.size
     if not last.doubt:
         return least, ""
     if not (_halves(*values) and _halves(*top)):  # what follows from a pressure settles no earlier than that does

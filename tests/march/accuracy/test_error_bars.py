@@ -57,8 +57,21 @@ def test_no_bar_is_narrower_than_what_the_iterations_may_have_left():
     assert bar([GridReading(100.0001), GridReading(100.0, settled=0.005)])[0] == pytest.approx(0.2)
     same = [GridReading(100.0002), GridReading(100.0001), GridReading(100.0, settled=0.005)]
     assert bar(same)[0] == 0.005 and bar(same[:2] + [GridReading(100.0)])[0] < 3e-4
-    expected = GridReading(120.0, settled=0.1 * scene("gear").thermal.tolerance)
-    assert readings.temperature_reading(120.0, scene("gear")) == expected
+    assert readings.temperature_reading(120.0, scene("gear")).settled == 0.1 * scene("gear").thermal.tolerance
+
+
+@pytest.mark.parametrize("passing", [False, True])
+@pytest.mark.parametrize("rises", [(30.0, 31.0), (30.0, 30.01), (20.0, 24.0, 25.0), (0.4, 0.65), (20.0, 45.0)])
+def test_a_bar_of_a_temperature_does_not_depend_on_the_zero_of_its_scale(rises, passing):
+    """Equal rises over inlets of 0, 90 and 273.15 degrees; two grids that agree hide a fifth of a kelvin, of a passage one."""
+    found = []
+    for inlet in (0.0, 90.0, 273.15):
+        over = SimpleNamespace(operation=SimpleNamespace(temperature=inlet), thermal=scene("gear").thermal)
+        found.append(bar([readings.temperature_reading(inlet + rise, over, passing) for rise in rises], passing))
+    sizes, reasons = zip(*found)
+    assert len(set(reasons)) == 1 and (sizes[0] is None) == bool(reasons[0]) == (rises[-1] == 45.0)
+    if not reasons[0]:
+        assert sizes == pytest.approx([sizes[0]] * 3, rel=1e-9) and (len(rises) > 2 or sizes[0] >= readings.CHANCE[passing])
 
 
 def test_rounding_on_every_grid_is_nothing_with_a_bar_of_nothing():
