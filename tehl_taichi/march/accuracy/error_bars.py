@@ -99,7 +99,8 @@ def bar(readings, passing=False):
         return None, Reason("its place differs from that on the next coarser grid", "place")
     steps = [b.value - a.value for a, b in zip(known[:-1], known[1:])][::-1]
     if abs(steps[0]) > max(HOPELESS * last.size, last.chance) and not last.spread:
-        return None, Reason(f"it still changes by {abs(steps[0]) / last.size:.0%} from grid to grid", "changes")
+        part = f"{abs(steps[0]) / last.size:.0%}" if last.size else f"{abs(steps[0]):.2g} (from zero)"
+        return None, Reason(f"it still changes by {part} from grid to grid", "changes")
     accident = _accident(last, passing) if len(steps) == 1 else 0.0
     sway = SWAY * max(map(abs, steps[:2])) if last.swayed else 0.0
     left = _left_of_spread(steps, last.spread) if last.spread else _left(steps, bool(last.place), passing)

@@ -74,6 +74,11 @@ def test_a_bar_of_a_temperature_does_not_depend_on_the_zero_of_its_scale(rises, 
         assert sizes == pytest.approx([sizes[0]] * 3, rel=1e-9) and (len(rises) > 2 or sizes[0] >= readings.CHANCE[passing])
 
 
+def test_a_number_that_is_zero_on_the_finest_grid_alone_has_no_bar():
+    size, reason = bar([GridReading(0.03), GridReading(0.0)])
+    assert size is None and "still changes by 0.03 (from zero)" in reason
+
+
 def test_rounding_on_every_grid_is_nothing_with_a_bar_of_nothing():
     """Friction in pure rolling: 1e-18 that changes by 134 % from grid to grid."""
     assert bar([GridReading(-3e-19), GridReading(2.3e-18)]) == (0.0, "")
