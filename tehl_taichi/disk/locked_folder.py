@@ -1,9 +1,10 @@
 """Folders that are written under a lock: opened completely or released, closed at the end of a `with`."""
 
+import contextlib
 
 from tehl_taichi.disk import links
-from tehl_taichi.disk.files import disk_errors, remove_temporaries
-from tehl_taichi.disk.locks import Lock
+from tehl_taichi.disk.files import TEMPORARY, disk_errors, remove_temporaries
+from tehl_taichi.disk.locks import LOCK, Lock
 
 
 class LockedFolder:
@@ -38,3 +39,26 @@ def locked_folder(path, opened):
     except BaseException:
         lock.release()
         raise
+
+
+def is_begun(folder):
+    """Whether a folder holds nothing, or only what a writer that was killed at its beginning left: its lock, a temporary
+    file.
+    """
+    return all(path.name == LOCK or TEMPORARY.fullmatch(path.name) for path in folder.iterdir())
+
+
+@contextlib.contextmanager
+def only_writer(folder):
+    """Context manager: only this process writes in `folder`, which is made if necessary and removed if it stays empty. Raises
+    StoreError, Busy.
+    """
+    with disk_errors(folder, "cannot write to"):
+        folder.mkdir(parents=True, exist_ok=True)
+    lock = locked_folder(folder, lambda lock: lock)
+    try:
+        yield
+    finally:
+        lock.release()
+        with contextlib.suppress(OSError):  # it holds results
+            folder.rmdir()

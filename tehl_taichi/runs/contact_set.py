@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any, ClassVar, Self
 
 from tehl_taichi.disk import files, links, user_files
+from tehl_taichi.disk.drafts import PART, staging_path
+from tehl_taichi.disk.locks import LOCK
 from tehl_taichi.errors import StoreError
 from tehl_taichi.values.checks import integer
 from tehl_taichi.values.coded_warning import summary_for_reader
@@ -97,9 +99,10 @@ class ContactSet:
 
     @classmethod
     def _check_free(cls, folder, own):
-        """Refuse a folder with other contents than stores of `own`, which an interrupted command left."""
-        stores = {Path(one.get("store") or "").name for one in own._contacts} if own else set()
-        if any(path.name not in stores and not files.TEMPORARY.fullmatch(path.name) for path in Path(folder).iterdir()):
+        """Refuse a folder with other contents than a lock and stores of `own`, which a killed command may just have begun."""
+        stores = [Path(one["store"]) for one in own._contacts if one.get("store")] if own else []
+        left = {LOCK, *(path.name for path in stores), *(staging_path(path, PART).name for path in stores)}
+        if any(path.name not in left and not files.TEMPORARY.fullmatch(path.name) for path in Path(folder).iterdir()):
             raise StoreError(f"{folder} exists and is not the folder of a {cls.KIND}; choose another --out")
 
     @classmethod

@@ -4,6 +4,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
+from tehl_taichi.disk.locked_folder import only_writer
 from tehl_taichi.errors import DiskError, Interrupted, StoreError, are_options_typed, interrupt
 from tehl_taichi.runs import passages_left, single_run
 from tehl_taichi.runs.progress import Progress, progress_of
@@ -28,13 +29,15 @@ class Outcome:
 def computed(made, with_outcome, scenes, workers=None, threads=None, progress=None):
     """The ContactSet `made` with the outcomes of the scenes, written after each; arguments and errors: :func:`summaries`.
 
-    with_outcome(set, n, outcome): the set with the outcome of scene n.
+    with_outcome(set, n, outcome): the set with the outcome of scene n. Also raises Busy if another process writes in its
+    folder.
     """
     done = 0
     try:
-        for n, outcome in summaries(scenes, made.folder, workers, threads, progress):
-            made, done = with_outcome(made, n, outcome), done + 1
-            made.write()
+        with only_writer(Path(made.folder)):
+            for n, outcome in summaries(scenes, made.folder, workers, threads, progress):
+                made, done = with_outcome(made, n, outcome), done + 1
+                made.write()
     except KeyboardInterrupt as stop:
         raise interrupt(stop, f" after {part_of(done, len(scenes), 'contact')}; {_remedy(made)}") from None
     except DiskError as error:

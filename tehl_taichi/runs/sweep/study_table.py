@@ -25,7 +25,7 @@ import numpy as np
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
 from tehl_taichi.disk.files import disk_errors, json_of, reason, replace, store_error
-from tehl_taichi.disk.locked_folder import LockedFolder, locked_folder
+from tehl_taichi.disk.locked_folder import LockedFolder, is_begun, locked_folder
 from tehl_taichi.disk.user_files import check_outside
 from tehl_taichi.errors import Interrupted, SceneError, StoreError, UnknownName, extra
 from tehl_taichi.runs.sweep import case_records as records
@@ -114,7 +114,7 @@ class Study(LockedFolder):
         """Raise StoreError if the study of `plan` cannot be written at `path`, because other results are there."""
         attrs = attributes(path)
         check_outside(path)
-        if attrs is None and (os.path.isfile(path) or os.path.isdir(path) and any(path.iterdir())):
+        if attrs is None and (os.path.isfile(path) or os.path.isdir(path) and not is_begun(path)):
             raise StoreError(f"{path} exists already and is not a study; choose another --out")
         if attrs is not None and (version := attrs.get("version", "unknown")) != __version__:
             raise StoreError(f"{path} was written by version {version}, this is {__version__}; cases of two versions are not "

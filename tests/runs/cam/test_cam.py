@@ -10,6 +10,8 @@ from commands import here
 from fake_cases import position
 
 import tehl_taichi as tehl
+from tehl_taichi.disk.locked_folder import only_writer
+from tehl_taichi.disk.locks import Busy
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.report import cam_page, place_page
 from tehl_taichi.runs.cam import cam_columns, cam_figure, cam_table
@@ -155,13 +157,36 @@ def test_the_command_again_writes_a_damaged_file_and_more_angles_but_no_other_ca
 
 
 def test_a_cam_that_was_stopped_in_its_first_angle_is_resumed(tmp_path, cycle):
-    """Its folder has a store and no cam.json."""
+    """Its folder has a store, or the draft of one and a lock, and no cam.json."""
+    (tmp_path / ".cam-01.zarr.part").mkdir()
+    (tmp_path / ".lock").touch()
+    tehl.Cam.check_writable(tmp_path, cycle)
     (tmp_path / "cam-01.zarr").mkdir()
     (tmp_path / ".cam.json.0123456789abcdef.tmp").touch()
     tehl.Cam.check_writable(tmp_path, cycle)
     (tmp_path / "cam-99.zarr").mkdir()
     with pytest.raises(StoreError, match="is not the folder of a cam"):
         tehl.Cam.check_writable(tmp_path, cycle)
+
+
+def test_a_cam_has_one_writer_at_a_time(tmp_path, monkeypatch):
+    """Both would write the record, the last one without the contacts that the other had."""
+    monkeypatch.setattr(case, "run_case", lambda job, *_: position(job))
+    with only_writer(tmp_path / "c"), pytest.raises(Busy, match="c is still being written by process .*; wait for it"):
+        tehl.cam(table(tmp_path), folder=tmp_path / "c", workers=1)
+    assert tehl.cam(table(tmp_path), folder=tmp_path / "c", workers=1).rows and not (tmp_path / "c" / ".lock").exists()
+
+
+def test_a_cam_that_stores_nothing_leaves_no_folder(tmp_path, monkeypatch):
+    from tehl_taichi.runs.flank import outcomes
+
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(outcomes, "summaries", stop)
+    with pytest.raises(KeyboardInterrupt):
+        tehl.cam(table(tmp_path), folder=tmp_path / "c", workers=1)
+    assert [path.name for path in tmp_path.iterdir()] == ["cam.csv"]
 
 
 @pytest.mark.slow

@@ -78,6 +78,19 @@ def test_a_study_is_a_table_over_the_swept_keys(study):
     assert "left_out" not in rows[0] and float(rows[7]["feature.height"]) == 1e-6
 
 
+def test_a_sweep_that_was_killed_at_its_beginning_is_resumed(tmp_path):
+    """Its folder has a lock or a temporary file, and no description yet; other files are not ours."""
+    path = tmp_path / "s.zarr"
+    path.mkdir()
+    (path / ".lock").touch()
+    (path / ".zarr.json.0123456789abcdef.tmp").touch()
+    Study.write(path, plan(GEAR, OVER)).close()
+    assert Study.open(path).counts["waiting"] == 9 and not list(path.glob(".*"))
+    (path / "zarr.json").unlink()
+    with pytest.raises(StoreError, match="exists already and is not a study"):
+        Study.write(path, plan(GEAR, OVER))
+
+
 def test_the_table_does_not_depend_on_which_case_ends_first(tmp_path):
     """Workers end in any order, and cases have different numbers."""
     over = plan(GEAR, {"srr": [-0.1, 0.1, 0.2]})
