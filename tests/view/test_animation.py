@@ -35,7 +35,7 @@ def test_a_frame_shows_its_entry_on_axes_with_room_for_all():
         np.testing.assert_allclose(line.get_ydata(), fields[name][:, 0] * factor)
     image, *_ = film.map
     np.testing.assert_allclose(image.get_array()[12:], fields["pressure"].T / 1e9)  # the other half is its mirror image
-    assert film.title.get_text() == "gear: feature at -0.80 a"
+    assert film.title.get_text() == f"gear (a = {film.moments.a * 1e3:.3g} mm): feature at -0.80 a"
     assert {name: (ax.get_xlim(), ax.get_ylim()) for name, ax in film.axes.items()} == limits
     largest = film.store.fields(3, ["pressure"])["pressure"].max() / 1e9  # of the last entry
     assert image.get_clim() == pytest.approx((2.0, largest))

@@ -73,7 +73,8 @@ def test_profiles_across_the_film_are_those_of_their_places():
     store, zeta = Made(made().scene), np.linspace(0, 1, 5)
     store.map = lambda name: zeta if name == "zeta" else None
     store.fields = lambda n, names: {"temperature": (store.x[:, None, None] / store.a) + 10 * zeta + 0 * store.y[None, :, None]}
-    moments = SimpleNamespace(store=store, x=store.x / store.a, line=0, half=True, one=lambda: 2, says=lambda n: "there")
+    moments = SimpleNamespace(store=store, x=store.x / store.a, line=0, half=True, one=lambda: 2, says=lambda n: "there",
+                              named="gear")
     ax = line_figures.profiles(PAGE, moments).axes[0]
     step = np.diff(moments.x[:2]).item()
     for line in ax.lines:

@@ -111,3 +111,20 @@ def test_axes_of_even_ratios_are_logarithmic_with_ticks(x, ticks):
     logarithmic_axis.choose_x(ax, x)
     assert (ax.get_xscale() == "log") == (ticks is not None)
     assert ticks is None or set(ticks) <= {round(tick, 6) for tick in ax.get_xticks()}
+
+
+@pytest.mark.parametrize("width", [5.0, 17.0, 60.0])
+def test_a_hollow_symbol_keeps_its_rim(width):
+    """In figures of every width, of studies and of traction curves."""
+    import numpy as np
+
+    from tehl_taichi.view.figures import unknown_errors
+
+    page, x = FigureStyle(width=width), np.array([0.0, 1.0])
+    with page.style():
+        ax = page.figure()[1][0, 0]
+        symbol = ax.errorbar(x, x, [0.1, np.nan], fmt="o-").lines[0]
+        unknown_errors.draw(ax, x, x, np.array([0.1, np.nan]))
+    hole = ax.lines[-1]
+    assert hole.get_xdata().tolist() == [1.0] and hole.get_marker() == symbol.get_marker() == "o"
+    assert 0.3 * symbol.get_markersize() < hole.get_markersize() + hole.get_markeredgewidth() < 0.7 * symbol.get_markersize()

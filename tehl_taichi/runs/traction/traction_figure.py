@@ -22,6 +22,8 @@ def drawn(page, found):
     for ax, (label, key, unit) in zip(axes[:, 0], panels):
         _panel(ax, found, label, key, unit)
     _along(axes[-1, 0], found)
+    if len(found.curves) > 1:
+        page.legend(figure)
     page.title(figure, title(found) + _explained(found, panels))
     return figure
 
@@ -51,12 +53,10 @@ def _panel(ax, found, label, key, unit):
     for (name, rows), colour in zip(found.curves.items(), [*palette.LINES] * len(found.rows)):
         x, y, error = series(found, rows, key)
         bars = error * factor if np.isfinite(error).any() else None
-        ax.errorbar(x, y * factor, bars, fmt=".-", color=colour, label=name or None, **palette.BARS)
+        ax.errorbar(x, y * factor, bars, fmt="o-", color=colour, label=name or None, **palette.BARS)
         unknown_errors.draw(ax, x, y * factor, error)
     ax.set_ylabel(f"{label} ({shown})" if shown else label)
     ax.grid()
-    if len(found.curves) > 1:
-        ax.legend()
 
 
 def _along(ax, found):

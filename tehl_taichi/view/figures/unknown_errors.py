@@ -2,11 +2,15 @@
 
 import numpy as np
 
+HOLE = 0.5  # of the symbol: its rim can be seen in figures of any width
+
 
 def draw(ax, x, y, errors):
-    """Draw points with unknown error as hollow symbols. x, y, errors: arrays, unknown errors are nan."""
+    """Make symbols "o" with unknown error hollow. x, y, errors: arrays, unknown errors are nan."""
+    from matplotlib import rcParams
+
     unknown = ~np.isfinite(errors)
-    ax.plot(x[unknown], y[unknown], ".", color="white", markersize=3, zorder=4)
+    ax.plot(x[unknown], y[unknown], "o", color="white", markersize=HOLE * rcParams["lines.markersize"], mew=0, zorder=4)
 
 
 def words(values, errors):

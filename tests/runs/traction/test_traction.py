@@ -127,6 +127,9 @@ def test_points_with_an_unknown_error_are_hollow(curves):
     figure = traction_figure.drawn(FigureStyle(), curves)
     hollow = [[line.get_xdata().tolist() for line in ax.lines if str(line.get_color()) == "white"] for ax in figure.axes]
     assert hollow == [[[0.1, 0.2]] * 2, [[]] * 2, [[0.0, 0.1, 0.2]] * 2]
+    curve, *_, hole = figure.axes[0].lines
+    assert curve.get_marker() == "o" and hole.get_markersize() < 0.7 * curve.get_markersize()  # a rim is left
+    assert [len(legend.get_texts()) for legend in figure.legends] == [2] and not any(ax.get_legend() for ax in figure.axes)
     assert figure.get_suptitle() == f"{traction_figure.title(curves)} (hollow: error unknown)"
 
 
