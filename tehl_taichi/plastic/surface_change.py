@@ -24,7 +24,7 @@ class SurfaceChange:
 
     def at(self, x, y):
         """Sinking (m) at (y, x) for positions x (n,) and y (m,) of its frame."""
-        along, across = _weights(self.x, x), _weights(self.y, np.abs(y) if self.mirrored else y, self.mirrored)
+        along, across = _weights(self.x, x), _weights(self.y, y, self.mirrored)
         return across @ self.sinking.T @ along.T
 
 

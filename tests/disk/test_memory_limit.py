@@ -45,6 +45,21 @@ def test_the_size_of_a_frame_is_read_as_it_was_written(count):
     assert chunks.declared_bytes(b"no frame of zstd at all") is None
 
 
+@pytest.mark.parametrize("kind, alone, size", [(0, 1, 200), (0, 0, None), (1, 0, 256), (1, 1, 65791), (2, 0, 70000),
+                                               (3, 1, 2**40 + 5)])
+@pytest.mark.parametrize("dictionary", [0, 1, 2, 3])
+def test_the_size_that_a_frame_declares_is_read_behind_its_window_and_dictionary(kind, alone, size, dictionary):
+    """Headers by RFC 8878: a descriptor, a window unless the frame is one segment, 0, 1, 2 or 4 bytes of a dictionary, the size
+    (of kind 1 less 256); the bits of both other flags do not matter."""
+    length = {0: 1 if alone else 0, 1: 2, 2: 4, 3: 8}[kind]
+    written = (size - 256 * (kind == 1)).to_bytes(length, "little") if size else b""
+    for flags in (0, 4, 16):
+        descriptor = bytes([kind << 6 | alone << 5 | flags | dictionary])
+        head = b"\x28\xb5\x2f\xfd" + descriptor + b"\x58" * (1 - alone) + b"\x77" * (0, 1, 2, 4)[dictionary]
+        assert chunks.declared_bytes(head + written + b"\x99" * 9) == size
+    assert chunks.declared_bytes(b"\x29" + head[1:] + written + b"\x99" * 9) is None and chunks.declared_bytes(head[:5]) is None
+
+
 @pytest.mark.parametrize("name", ["pressure/c.0.0.0", "h_min_m/c/0", "step/c/0", "x/c/0"])
 def test_a_chunk_that_declares_more_than_its_array(tmp_path, name):
     path = store(tmp_path / "a.zarr").path

@@ -165,6 +165,18 @@ def test_half_of_a_mirrored_surface_is_the_whole():
     assert_allclose(whole.at(x, places), np.interp(places, y, heights[3])[:, None] * heights[:, 5] / heights[3, 5], atol=4e-11)
 
 
+def test_a_change_off_the_axis_is_on_its_side_alone():
+    """Cubic along y between its rows; where y = 0 mirrors, it has an image."""
+    x, y = np.arange(6) * 2e-6, np.arange(-5, 6) * 3e-6
+    heights = np.ones((6, 1)) * np.where(y > 0, 1e-9 * (y / 3e-6) ** 3, 0.0)
+    change, half = SurfaceChange("a", x, y, heights, False), SurfaceChange("a", x, y[5:], heights[:, 5:], True)
+    assert_allclose(change.at(x, y), heights.T, rtol=1e-12)
+    assert_allclose(half.at(x, y), change.at(x, np.abs(y)), rtol=1e-12)
+    between = np.array([2.2, 3.6]) * 3e-6
+    assert_allclose(change.at(x[:1], between)[:, 0], 1e-9 * (between / 3e-6) ** 3, rtol=1e-9)
+    assert not change.at(x, -between).any() and not change.at(x, np.array([-25e-6, 25e-6])).any()
+
+
 def field(x, y):
     """A field whose components are linear in x, y and depth."""
     depths = np.array([2e-6, 6e-6, 12e-6])

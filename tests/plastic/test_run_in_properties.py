@@ -102,6 +102,21 @@ def test_the_range_of_residual_stress_is_that_of_the_components_in_the_store():
         assert (own["residual_min_Pa"], own["residual_max_Pa"]) == pytest.approx((stored.min(), stored.max()), rel=1e-6)
 
 
+@pytest.mark.parametrize("more", ["a", "b"])
+def test_numbers_of_both_bodies_are_the_extremes_of_each(more):
+    """Whichever body has flowed more."""
+    state = made_run_in.flowed()
+    if more == "b":
+        state = replace(state, bodies={"a": state.bodies["b"], "b": state.bodies["a"]})
+    numbers = run_in_numbers.numbers(STEEL, state)
+    each = {name: one.start for name, one in state.bodies.items()}
+    assert numbers["surface_change_max_m"] == pytest.approx(max(np.abs(one.sinking).max() for one in each.values()))
+    assert numbers["plastic_strain_max"] == pytest.approx(each[more].hardened.max())
+    assert numbers["residual_min_Pa"] == pytest.approx(each[more].residual[:, :2].min())
+    assert numbers["residual_max_Pa"] == pytest.approx(max(one.residual[:, :2].max() for one in each.values()), abs=1.0)
+    assert each[more].hardened.max() > 1.5 * min(one.hardened.max() for one in each.values())
+
+
 @pytest.mark.parametrize("at, contained", [((-1, 5, 2), False), ((1, 0, 2), False), ((1, -1, 2), False), ((1, 5, -1), False),
                                            ((1, 5, 2), True), ((0, 5, 0), True)])
 def test_flow_at_any_rim_of_the_region_is_not_contained(at, contained):
