@@ -127,6 +127,24 @@ def test_a_point_of_the_surface_goes_with_the_feature(stored, tmp_path):
     assert table(two / "point_0um_80um.csv")["pressure [Pa]"][-1] == pytest.approx(field(3, 1e-5, 8e-5), rel=1e-6)
 
 
+def test_a_point_leaves_the_grid_at_its_end(stored, tmp_path):
+    """Two and a half steps after the first moment."""
+    x = tehl.open(stored).store.x[-1] - FIRST - 2.5e-5
+    found = table(tehl.export(stored, "csv", tmp_path / "tables", point=(x, 0.0)) / f"point_{x * 1e6:g}um_0um.csv")
+    assert np.allclose(found["time [s]"], 1e-6 * np.arange(3), atol=0)
+    assert np.allclose(found["pressure [Pa]"], field(np.arange(3), found["x [m]"], 0.0), rtol=1e-6)
+
+
+def test_a_position_half_a_step_beyond_the_passage_is_its_end(stored, tmp_path):
+    first, last = FIRST + 1e-5, FIRST + 1e-5 * (STEPS - 1)
+    for end, out, step in ((first, -1, 1), (last, 1, STEPS - 1)):
+        at = (end + 0.4e-5 * out) / A
+        line = table(tehl.export(stored, "csv", tmp_path / f"near{out}", at=at) / f"centreline_at_{at:g}a.csv")
+        assert np.allclose(line["time [s]"], 1e-6 * step, atol=0)
+        with pytest.raises(tehl.SceneError, match="the feature moves from"):
+            tehl.export(stored, "csv", tmp_path / f"far{out}", at=(end + 0.6e-5 * out) / A)
+
+
 def test_netcdf_is_the_whole_store(stored, tmp_path):
     xarray = pytest.importorskip("xarray")
     made = tehl.export(stored, "netcdf", tmp_path / "gear.nc")
