@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import hertz, thick_film
-from tehl_taichi.scene.film_formula import heated_film
+from tehl_taichi.scene.film_formula import central_film, heated_film
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.automatic import AutomaticValue
 from tehl_taichi.values.coded_text import Option, grid_option
@@ -21,13 +21,19 @@ LINE_SIDE = 1.0  # b, where nothing depends on it
 # but the last one's
 INLETS = 2.5, 4.5, 6.5, 10.5, 14.5, 20.0
 SIDES = 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 15.0, 20.0  # b
-OUTLETS = 1.5, 2.0, 2.5, 3.5, 5.0, 7.0, 10.0  # a
-# Gap over the film of the formula at the outlet, at least: lines of M 0.3 to 4, L 5 to 25 rupture where it is 1.12 to 1.18,
-# circles of M 0.5 to 3 where it is 1.02 to 1.08, beside the axis, too
+OUTLETS = 1.5, 2.0, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0  # a
+# Gap over the film of the formula at the outlet, at least: lines of M 0.3 to 4, L 5 to 25 rupture where it is 1.12 to
+# 1.18, circles of M 0.5 to 3 where it is 1.02 to 1.08, beside the axis, too
 RUPTURED = {"line": 1.2, "point": 1.1}
+# Of the heated film, that hot thick films may be thicker: 25 lines are 0.86 to 3.26 times it, at most 0.9 of the isothermal one
+THICKER = 3.3
 # Gap over film at both, at least. With temperatures the oil that flows back heats what comes in beyond the border (smooth line
 # at 0.5 GPa, 20 m/s, 60 deg C, SRR -0.5: the film is 12 % too thick with 2.5, 2.7 % with 8, 0.8 % with 18)
 GAPS, HEATED = 8.0, 20.0
+# Part of the error of a border without pressure that remains with the pressure of the oil beyond it; with temperatures HOT/gap
+# more, HOTTEST at most: oil that flows in at the border is taken to be cold (lines, circles and ellipses from -2.5 to -8.5 a
+# against 12.5 to 20 a, docs/decisions/02-inlet.md). An automatic inlet leaves at most NOTED by the formulas
+STIFF, HOT, HOTTEST, NOTED = 0.015, 3.5, 0.25, 0.006
 # What an end costs the film: a part of (gap there/so many films)^(-3/2), and of a passage's numbers
 INLET, SIDE, LEFT, PASSAGE = 1.4, 0.7, {"line": 0.06, "point": 0.3}, 3.0
 LITTLE = 2e-3
@@ -43,8 +49,8 @@ def with_chosen_ends(scene):
     automatic = [key for key in ENDS if _auto(getattr(grid, key))]
     if not automatic:
         return grid
-    found = {"x_min": lambda s, film: -_first(INLETS, lambda X: inlet_gap(s, X) / film, _least(scene)),
-             "x_max": _outlet,
+    found = {"x_min": lambda s, film: -_inlet(scene, s, film),
+             "x_max": lambda s, film: outlet(scene),
              "y_max": lambda s, film: LINE_SIDE if s.line else _first(SIDES, lambda Y: side_gap(s, Y) / film, GAPS)}
     s, film = _scales_and_film(scene)
     return replace(grid, **{key: AutomaticValue(found[key](s, film)) for key in automatic})
@@ -65,8 +71,24 @@ def _auto(value):
     return value == AUTO or isinstance(value, AutomaticValue)
 
 
-def _outlet(s, film):
-    return _first(OUTLETS, lambda X: inlet_gap(s, X) / film, RUPTURED[s.kind])
+def _inlet(scene, s, film):
+    """First inlet (a) with a gap of enough films and little error by the formulas: pressure at the border is that of cold oil,
+    however much the heat reduces the film.
+    """
+    gaps = {end: inlet_gap(s, end) for end in INLETS}
+    cold, thick = central_film(scene) / s.h, _thickest(scene) / s.h
+    return next((end for end, gap in gaps.items() if 1 + gap / film >= _least(scene)
+                 and left(scene, 1 + gap / thick) * ((1 + gap / cold) / INLET) ** -1.5 <= NOTED), INLETS[-1])
+
+
+def _thickest(scene):
+    """Thickest film (m) that the formulas leave possible."""
+    return min(central_film(scene), THICKER * heated_film(scene))
+
+
+def left(scene, gap):
+    """Part of the error of a border without pressure that remains with a border with pressure; gap: there, in films."""
+    return STIFF + (0.0 if scene.isothermal else min(HOT / gap, HOTTEST))
 
 
 def _least(scene):
@@ -124,8 +146,9 @@ def remedy(scene, film):
 
 
 def outlet(scene):
-    """End of the domain (a) behind the rupture of the film, by the film formula."""
-    return _outlet(*_scales_and_film(scene))
+    """End of the domain (a) behind the rupture of the thickest film that the formulas leave possible."""
+    s, film = Scales.of(scene), _thickest(scene)
+    return _first(OUTLETS, lambda X: inlet_gap(s, X) * s.h / film, RUPTURED[s.kind])
 
 
 def farther(scene, film):

@@ -26,17 +26,36 @@ def test_far_beside_an_ellipse_the_gap_is_that_of_the_rigid_bodies(ratio):
     assert domain.side_gap(s, Y) == pytest.approx((Y * s.b) ** 2 / (2 * scene.contact.radius_y) / s.h, rel=0.02)
 
 
+def error_by_formula(scene, gap):
+    """Share of the film that an inlet leaves: part with the pressure at the border, of the loss of cold oil without it."""
+    cold, heated = domain.central_film(scene), heated_film(scene)
+    part = 0.015 + (0.0 if scene.isothermal else min(3.5 / (1 + gap / min(cold, 3.3 * heated)), 0.25))
+    return part * ((1 + gap / cold) / 1.4) ** -1.5
+
+
 @pytest.mark.parametrize("heat, least", [(False, domain.GAPS), (True, domain.HEATED)])
 def test_an_automatic_inlet_is_the_nearest_where_film_and_gap_are_enough_films(heat, least):
-    """Of film and gap together; in steps of 8 % of the speed."""
+    """Of film and gap together, and little error of the cold oil before it; in steps of 8 % of the speed."""
     line, found = tehl.scene("smooth-line").replace(**{**THICK, "hertz_pressure": 5e8, "thermal.on": heat}), []
     for speed in np.geomspace(1.0, 50.0, 45):
         scene = line.replace(speed=float(speed))
         s, end = Scales.of(scene), -scene.grid.x_min
         films = [1 + domain.inlet_gap(s, X) * s.h / domain.heated_film(scene) for X in domain.INLETS]
+        errors = [error_by_formula(scene, domain.inlet_gap(s, X) * s.h) for X in domain.INLETS]
+        enough = [X for X, count, error in zip(domain.INLETS, films, errors) if count >= least and error <= 0.006]
         found.append(end)
-        assert end == next(X for X, count in zip(domain.INLETS, films) if count >= least)
+        assert end == [*enough, 20.0][0]
     assert len(set(found)) > 1
+
+
+@pytest.mark.parametrize("pressure, speed, temperature, srr, end", [
+    (3.5e8, 50.0, 60.0, -1.0, -20.0), (5e8, 50.0, 40.0, -1.0, -20.0), (8e8, 20.0, 30.0, -0.5, -10.5),
+    (1.5e9, 5.0, 80.0, -0.3, -2.5)])
+def test_an_inlet_of_a_film_that_heat_thins_has_the_distance_of_a_colder_one(pressure, speed, temperature, srr, end):
+    """From -10.5, -6.5 and -6.5 a their bars had 6, 18 and 3 % by the domain, with a warning; the last film is usual."""
+    scene = tehl.scene("smooth-line").replace(**{"hertz_pressure": pressure, "speed": speed, "temperature": temperature,
+                                                 "srr": srr})
+    assert scene.grid.x_min == end
 
 
 def test_a_passage_asks_for_a_longer_domain_than_its_start():
@@ -83,6 +102,19 @@ def test_an_outlet_moves_behind_the_rupture_of_a_thick_film_and_is_told(name):
     assert f"to {g.x_max:g} a" in domain.moved(thick)
     assert thick.replace(**{"grid.x_max": 1.5}).grid.x_max == tehl.scene("gear").grid.x_max == 1.5
     assert domain.outlet(thick) == g.x_max
+
+
+@pytest.mark.parametrize("pressure, speed, srr, film", [
+    (1e8, 5.0, 0.0, 364.2), (2e8, 20.0, -0.5, 86.6), (3.5e8, 20.0, -0.5, 7.28), (3.5e8, 20.0, 0.0, 7.54),
+    (5e8, 50.0, -1.0, 2.82)])
+def test_an_outlet_is_behind_the_rupture_of_a_hot_thick_film(pressure, speed, srr, film):
+    """Films computed on 64 columns, a^2/R': up to three times the formula with the heat of the inlet. By this formula the first
+    three ended before their rupture."""
+    thick = tehl.scene("smooth-line").replace(**{"hertz_pressure": pressure, "speed": speed, "temperature": 40.0, "srr": srr,
+                                                 "grid.nx": 256})
+    s, end = Scales.of(thick), thick.grid.x_max
+    assert 1 + domain.inlet_gap(s, end) / film >= domain.RUPTURED["line"] and end == domain.outlet(thick)
+    assert end <= thick.replace(**{"thermal.on": False}).grid.x_max  # an isothermal film is thicker
 
 
 @pytest.mark.parametrize("scene, end", [(tehl.scene("smooth-line"), {"grid.x_min": -1.2}), (BALL, {"grid.y_max": 1.2})])
