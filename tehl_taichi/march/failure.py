@@ -4,6 +4,7 @@ import numpy as np
 
 from tehl_taichi.errors import NotConverged
 from tehl_taichi.heat.energy import HOT
+from tehl_taichi.march.flooded_border import UNSHARED
 from tehl_taichi.pressure import fields
 from tehl_taichi.scene import domain, domain_warnings, overlap, refinement, thick_film, thin_film
 from tehl_taichi.scene.film_formula import heated_film
@@ -33,8 +34,8 @@ def crossed_surfaces(shot, a, border):
 def _reason(solver, heat, report, passing):
     scene = solver.levels.scene
     others = [", a smaller time.courant"] * scene.transient + [", --precision f64"] * (solver.levels.precision != "f64")
-    remedy = (next(thick_film.warnings(scene), "") or not passing and domain.too_short(scene) or _on_its_floor(solver, passing)
-              or f"try a finer grid (--grid){''.join(others)}")
+    remedy = (next(thick_film.warnings(scene), "") or not passing and domain.too_short(scene) or _overloaded(report)
+              or _on_its_floor(solver, passing) or f"try a finer grid (--grid){''.join(others)}")
     return f"{_what_failed(solver, heat, report)}; {remedy}"
 
 
@@ -46,6 +47,8 @@ def _what_failed(solver, heat, report):
                 f"{_heated(heat)}")
     if not report.mass_error < numerics.mass_tolerance:
         return f"mass error {report.mass_error:.1e} (tolerance {numerics.mass_tolerance:.0e}){_heated(heat)}"
+    if _overloaded(report):
+        return f"with the oil beyond the domain the contact carries {1 + report.load_error:.0%} of its load"
     if not heat:
         return "film and oil pressure at the border of the grid do not agree"
     if not heat.sound:
@@ -53,6 +56,11 @@ def _what_failed(solver, heat, report):
     if not np.isfinite(heat.report.change):
         return "no further time step converges"
     return f"the temperatures still change by {heat.report.change:.2g} K"
+
+
+def _overloaded(report):
+    """Advice where grid and oil beyond it do not carry the load of the scene together, "" otherwise."""
+    return thick_film.REMEDY if abs(report.load_error) > UNSHARED else ""
 
 
 def _worst(solver):

@@ -12,7 +12,7 @@ import numpy as np
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march.alternating_start import find_steady, time_step
 from tehl_taichi.march.feature_gap import smooth_with
-from tehl_taichi.march.flooded_border import between_blocks, border_of, iterate_border, share_load
+from tehl_taichi.march.flooded_border import between_blocks, border_of, iterate_border, share_load, with_whole_load
 from tehl_taichi.march.isothermal_start import first_converged, from_nothing, put, solve_from_table, solve_in_time
 from tehl_taichi.march.pseudo_transient import check, march_to_rest
 from tehl_taichi.pressure import fields
@@ -74,6 +74,7 @@ def solve_steady(scene, scales, nx, ny, look=None, full=False):
             report, moving = _with_temperatures(solver, heat, before, finest)
             if finest or report.converged and not _touches(solver):
                 P, H0, T = levels.get(fields.P), solver.H0, np.stack([refine(layer) for layer in heat.T])
+        report = with_whole_load(solver, report)
         if not report.converged:
             values = []
         if finest or report.converged and (scene.isothermal or heat):

@@ -20,17 +20,18 @@ from tehl_taichi.march.accuracy.side_change import side_change
 from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.inlet import Inlet
-from tehl_taichi.scene.domain import PASSAGE, SIDE
+from tehl_taichi.scene.domain import PASSAGE, SIDE, left
 from tehl_taichi.values.coded_text import Reason
 
 GRUBIN, LONG = 0.73, 0.15
 # Errors by the domain (lines, circles and ellipses from -2.5 to -8.5 a against 12.5 to 20 a, docs/decisions/02-inlet.md); q:
-# share of the load that the oil before carries, whose deflection of the bodies is left out. Of the film: STIFF of what a border
-# without pressure loses, and q (FLAT + STEEP q); with temperatures HOT/gap more, HOTTEST at most: oil that flows in at the
-# border is taken to be cold
-STIFF, FLAT, STEEP, HOT, HOTTEST = 0.015, 0.05, 0.45, 3.5, 0.25
+# share of the load that the oil before carries, whose deflection of the bodies is missing. Of the film: a part (domain.left) of
+# what a border without pressure loses, and q (FLAT + STEEP q)
+FLAT, STEEP = 0.05, 0.45
 # Of the largest pressure: q (PRESSURE + q); by q more: of the smallest film of a point contact, by its sides, and of friction
 PRESSURE, THINNEST, SLIDING = 0.35, 0.25, {"line": 0.2, "point": 0.7}
+# Of the part of the load that grid and oil beyond miss: of film and pressure. Films of rigid circles fall with its square
+LOADED = 2.0
 # Of the slope at the outlet, p_max per a. Ends at 1.5 to 2.5 a cost the film of lines (M 0.3 to 2, L 5 to 25) 0.21 of it, of
 # circles (M 0.5 to 2) 0.5 at most, the largest pressure 0.7, friction 0.56; with a spike there in Newtonian oil the pressure
 # 2.1, friction 6.9 (docs/decisions/02-inlet.md)
@@ -113,15 +114,12 @@ def _by_inlet(solver):
         return DomainError(gap=gap, lost=_lost(v, inlet, H, _raised(v, inlet, H)))
     lost, miss = _lost(v, inlet, H, 0.0), np.abs(inlet.beyond() - inlet.now()).max() / inlet.q[-1]
     outside, sides = inlet.load() / v.scales.load, 0.0 if v.line else THINNEST
-    film = _left(v, gap) * lost + GRUBIN * float(miss) + (FLAT + STEEP * outside) * outside
+    missed = LOADED * abs(solver.load / v.scales.load + outside - 1)
+    film = left(v.scene, gap) * lost + GRUBIN * float(miss) + (FLAT + STEEP * outside) * outside + missed
     rises = (0.0, 0.0) if v.scene.isothermal else heat_before(solver, inlet)
-    return DomainError(film, film + sides * outside, (PRESSURE + outside) * outside, film + SLIDING[v.scales.kind] * outside,
-                       _before(v, inlet, H), WARMED * rises[0], WARMED * rises[1], gap, lost)
-
-
-def _left(v, gap):
-    """Part of the error of a border without pressure that remains with a border with pressure."""
-    return STIFF + (0.0 if v.scene.isothermal else min(HOT / gap, HOTTEST))
+    return DomainError(film, film + sides * outside, (PRESSURE + outside) * outside + missed,
+                       film + SLIDING[v.scales.kind] * outside, _before(v, inlet, H), WARMED * rises[0], WARMED * rises[1], gap,
+                       lost)
 
 
 def _raised(v, inlet, H):

@@ -9,6 +9,7 @@ from advice import advised
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.march.accuracy.domain_error import DomainError, widened
+from tehl_taichi.march.flooded_border import UNSHARED
 from tehl_taichi.pressure import inlet
 from tehl_taichi.runs.summary import domain_warnings
 from tehl_taichi.scene import Scene, domain, scene
@@ -158,7 +159,8 @@ def effort(description, monkeypatch):
     found = solve_steady(description, s, description.grid.nx, 0 if s.line else description.grid.ny)
     monkeypatch.undo()
     border = inlet.Inlet(found.solver.levels)
-    assert found.report.converged and (border.agrees() or not border.flooded)
+    assert found.report.converged or found.report.load_error > UNSHARED
+    assert border.agrees() or not border.flooded
     return done
 
 
