@@ -104,7 +104,7 @@ def _value(values, errors, n):
 
 
 def _cell(values, errors, n):
-    """That text with a mark if the error is not known."""
+    """Text of a value with a mark if its error is not known."""
     text = _value(values, errors, n)
     return text if _is_rounding(values, n) else with_bar(text, errors[n])
 
