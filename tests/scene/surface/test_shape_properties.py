@@ -5,6 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from tehl_taichi.errors import SceneError
+from tehl_taichi.scene import scene
 from tehl_taichi.scene.feature import Feature
 
 UM = 1e-6
@@ -100,6 +102,15 @@ def test_the_top_is_the_largest_height(keys):
     for f in (made(keys), made(inverted(keys))):
         highest = sampled(f, n=(2601, 521)).max()
         assert 0.35 * f.top < highest < f.top if hasattr(f.kind, "waves") else highest == pytest.approx(f.top, rel=0.03)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("shape", ["waviness", "rough", "ground"])
+def test_waves_too_high_for_the_gap_at_the_end_of_the_domain_are_refused_upright_and_inverted(shape, sign):
+    keys = {"feature.shape": shape, "feature.extent_x": 3e-4, "feature.width": 1e-4, "grid.x_max": 1.5}
+    with pytest.raises(SceneError, match="smaller than the height of a feature"):
+        scene("gear").replace(**keys, **{"feature.height": sign * 20e-6})
+    assert scene("gear").replace(**keys, **{"feature.height": sign * 1e-6}).features[0].top > 0
 
 
 @pytest.mark.parametrize("shape", ["elliptic", "waviness both ways", "map", "part of a map"])
