@@ -27,8 +27,7 @@ FEW = 3  # digits of what was computed without a known error; numbers that were 
 
 def roughly(value):
     """Text of a number with unknown error: two digits, more only if rounding would hide on which side of 1 it is."""
-    text = f"{value:.2g}"
-    return text if float(text) != 1 else f"{value:.4g}"
+    return next((text for digits in (2, 4, 8) if float(text := f"{value:.{digits}g}") != 1), "1")
 
 
 def index(Fi, error=None):

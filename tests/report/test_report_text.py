@@ -76,6 +76,7 @@ def test_digits_follow_the_error():
     assert number_text.value_text(3.944e-7, None, "m") == "0.3944 µm" and number_text.value_text(2.5, 0.0) == "2.5 ± 0"
     assert number_text.value_text(2.286e11, 1e12) == "(0.2 ± 1.0)e+12" and number_text.share(0.5, -50.0) == "1 %"
     assert [number_text.roughly(Fi) for Fi in (1.645, 0.911, 1.03, 0.996, 1.004)] == ["1.6", "0.91", "1.03", "0.996", "1.004"]
+    assert [number_text.roughly(Fi) for Fi in (0.99997, 1.00002, 1.0)] == ["0.99997", "1.00002", "1"]
 
 
 def test_the_oil_in_words_and_numbers():
