@@ -20,7 +20,7 @@ from tehl_taichi.march.accuracy.side_change import side_change
 from tehl_taichi.march.quantities import HEAT
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.inlet import Inlet
-from tehl_taichi.scene.domain import PASSAGE, SIDE, left
+from tehl_taichi.scene.domain import INLETS, PASSAGE, SIDE, left
 from tehl_taichi.values.coded_text import Reason
 
 GRUBIN, LONG = 0.73, 0.15
@@ -30,6 +30,9 @@ GRUBIN, LONG = 0.73, 0.15
 FLAT, STEEP = 0.05, 0.45
 # Of the largest pressure: q (PRESSURE + q); by q more: of the smallest film of a point contact, by its sides, and of friction
 PRESSURE, THINNEST, SLIDING = 0.35, 0.25, {"line": 0.2, "point": 0.7}
+# Ends of a user nearer than the automatic ones: NEAR |X|^-5 more of what a border without pressure loses, and to friction
+# NEARER |X|^-2 of q more, both less that at the nearest automatic end (lines from -1.2 to -2.8 a, 0.4 to 1.2 GPa, decision 2)
+NEAR, NEARER = 0.45, 2.0
 # Of the part of the load that grid and oil beyond miss: of film and pressure. Films of rigid circles fall with its square
 LOADED = 2.0
 # Of the slope at the outlet, p_max per a. Ends at 1.5 to 2.5 a cost the film of lines (M 0.3 to 2, L 5 to 25) 0.21 of it, of
@@ -115,11 +118,17 @@ def _by_inlet(solver):
     lost, miss = _lost(v, inlet, H, 0.0), np.abs(inlet.beyond() - inlet.now()).max() / inlet.q[-1]
     outside, sides = inlet.load() / v.scales.load, 0.0 if v.line else THINNEST
     missed = LOADED * abs(solver.load / v.scales.load + outside - 1)
-    film = left(v.scene, gap) * lost + GRUBIN * float(miss) + (FLAT + STEEP * outside) * outside + missed
+    kept = left(v.scene, gap) + NEAR * _nearer(v, 5)
+    film = kept * lost + GRUBIN * float(miss) + (FLAT + STEEP * outside) * outside + missed
     rises = (0.0, 0.0) if v.scene.isothermal else heat_before(solver, inlet)
     return DomainError(film, film + sides * outside, (PRESSURE + outside) * outside + missed,
-                       film + SLIDING[v.scales.kind] * outside, _before(v, inlet, H), WARMED * rises[0], WARMED * rises[1], gap,
-                       lost)
+                       film + (SLIDING[v.scales.kind] + NEARER * _nearer(v, 2)) * outside, _before(v, inlet, H),
+                       WARMED * rises[0], WARMED * rises[1], gap, lost)
+
+
+def _nearer(v, power):
+    """|X|^-power at the inlet less that at the nearest automatic one; 0 from there on."""
+    return max(abs(v.X[0]) ** -power - INLETS[0] ** -power, 0.0)
 
 
 def _raised(v, inlet, H):
