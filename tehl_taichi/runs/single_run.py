@@ -349,15 +349,14 @@ def _what_is_left(path):
         return f"; {path} can no longer be read"
     if left.finished and not left.store.seeks_window:
         return f"; {path} is finished"
-    return f" after {number_of(left.store.last_step, 'step')}{_missing_words(left)}; resume with: tehl resume {typed(path)}"
+    missing = ", the whole passage; the window that it needs is missing" if left.finished else _missing_words(left)
+    return f" after {number_of(left.store.last_step, 'step')}{missing}; resume with: tehl resume {typed(path)}"
 
 
 def _missing_words(left):
     """Text of the missing part of a passage."""
     from tehl_taichi.scene.timeline import total_steps
 
-    if left.finished:
-        return ", the whole passage; the window that it needs is missing"
     if running := run_in_stage.words(left.store):
         return running
     if left.store.last_step < total_steps(left.scene):

@@ -6,7 +6,7 @@ from os import PathLike
 from tehl_taichi.errors import SceneError, StoreError
 from tehl_taichi.runs import single_run
 from tehl_taichi.runs.progress import Progress, progress_of
-from tehl_taichi.runs.stored_run import Run
+from tehl_taichi.runs.stored_run import Run, check_steps
 from tehl_taichi.scene import Scene, refinement, zoom_room
 from tehl_taichi.values.escape import typed
 from tehl_taichi.values.quantity import AUTO
@@ -36,6 +36,10 @@ def run(scene: Scene, path: str | PathLike | None = None, *, threads: int | None
 def resume(path: str | PathLike, *, steps: int | None = None, threads: int | None = None, progress: Progress | None = None
            ) -> Run:
     """Resume a run, and its search for the window that it needs: see :func:`tehl_taichi.resume`."""
+    from tehl_taichi.engine import runtime
+
+    check_steps(steps)
+    runtime.check_number(threads)
     done = single_run.open(path)
     if steps or not (done.finished and done.store.seeks_window):  # else only its window is missing
         done = single_run.resume(path, steps=steps, threads=threads, progress=progress)
