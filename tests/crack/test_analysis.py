@@ -588,7 +588,7 @@ def test_the_page_has_the_numbers_of_a_side_in_its_sentence_and_its_figures():
     sentence, = crack_plots.verdict({"sides": {"entry": SIDE}, "pit_angles_deg": [18.0, 50.0]})
     assert "tension reaches 321 MPa; K_I reaches 2.4 MPa√m (at the last length ± 0.02," in sentence
     assert "leans against rolling at 45° to the surface at 20 µm depth (pits: with rolling, 18 to 50°)" in sentence
-    band, = crack_plots._band("entry", {"path": [(-41 * MICRO, 0.0)]}, [18.0, 50.0], True)
+    band, = crack_plots._band({"path": [(-41 * MICRO, 0.0)]}, [18.0, 50.0], True)
     x, z = np.array(band["x"])[:3] + 41, np.array(band["y"])[:3]
     assert (x[0], z[0]) == pytest.approx((0, 0)) and np.degrees(np.arctan2(z[1:], -x[1:])) == pytest.approx([18.0, 50.0])
     cracks = [{"length": length, "K_I": [1e6, 2e6], "K_II": [0.0, 3e5]} for length in (5 * MICRO, 30 * MICRO)]
