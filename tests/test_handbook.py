@@ -18,7 +18,7 @@ from tehl_cli.main import app
 from tehl_taichi.laws.choices import CHOICES
 from tehl_taichi.laws.criteria import CRITERIA
 from tehl_taichi.runs.summary import result_warnings
-from tehl_taichi.scene import domain, scene, scene_file, scene_warnings
+from tehl_taichi.scene import domain, grid_for_error, scene, scene_file, scene_warnings
 from tehl_taichi.scene.surface.maps import map_warnings
 
 ROOT = Path(__file__).parents[1]
@@ -212,6 +212,17 @@ def test_numbers_of_a_short_form_are_those_of_the_page_that_it_sums_up(short, ti
     section = re.search(rf"^## {title}\n(.*?)^## ", (ROOT / short).read_text(encoding="utf-8"), re.M | re.S)[1]
     numbers, page = re.findall(r"(?<![\w.])\d+(?:\.\d+|e-\d+)(?: %)?", section), (ROOT / whole).read_text(encoding="utf-8")
     assert len(numbers) > 5 and [one for one in numbers if one not in page] == []
+
+
+def test_the_grid_for_an_error_is_chosen_by_the_table_of_the_page():
+    """The largest error of film, pressure and index: what `tehl bench accuracy --keep` writes with that table."""
+    table = (ROOT / "docs" / "performance.md").read_text(encoding="utf-8").partition("<!-- bench: accuracy -->")[2]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.partition("<!-- bench end")[0].splitlines()]
+    shown: dict[str, dict] = {}
+    for family, columns, _, *errors in (row[:7] for row in rows if len(row) > 7 and row[1].isdigit()):
+        shown.setdefault(family, {})[columns] = max(float(one.rstrip("*")) for one in errors if one) / 100
+    kept = {family: one["errors"] for family, one in grid_for_error.families().items()}
+    assert len(shown) == 4 and {family: pytest.approx(one, rel=1e-9) for family, one in shown.items()} == kept
 
 
 @pytest.mark.parametrize("text", ["some words\n* a list", "some words\n| a | b |", "words\n1. first"])
