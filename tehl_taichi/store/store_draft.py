@@ -71,8 +71,8 @@ def _check_free(path):
 def writable_folder(path):
     """The folder at `path`, or the nearest existing one above it. Raises StoreError if it cannot be written."""
     folder = path.absolute()
-    if len(os.fsencode(folder.name)) > LONGEST:
-        raise StoreError(f"cannot write to {path}: its name has {len(os.fsencode(folder.name))} bytes; allowed: {LONGEST}")
+    if (size := len(os.fsencode(folder.name))) > LONGEST:
+        raise StoreError(f"cannot write to {path}: File name too long ({size} bytes; allowed: {LONGEST})")
     while not os.path.lexists(folder):
         folder = folder.parent
     if not os.path.isdir(folder) or not os.access(folder, os.W_OK):

@@ -148,7 +148,7 @@ def test_files_of_others_are_not_taken_for_ours(tmp_path, name):
         assert not is_ours(tmp_path / name), content
 
 
-@pytest.mark.parametrize("name, said", [("file.csv", "file.csv"), ("n" * 300, "its name has 300 bytes|File name too long"),
+@pytest.mark.parametrize("name, said", [("file.csv", "file.csv"), ("n" * 300, "File name too long"),
                                         ("file.csv/new", "file.csv is not a folder|/file.csv: no permission")])
 def test_a_name_that_no_result_can_have(run, tmp_path, monkeypatch, name, said):
     """Refused with the path and exit code 2, before anything is computed."""
