@@ -21,7 +21,7 @@ LINE_SIDE = 1.0  # b, where nothing depends on it
 # but the last one's
 INLETS = 2.5, 4.5, 6.5, 10.5, 14.5, 20.0
 SIDES = 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 15.0, 20.0  # b
-OUTLETS = 1.5, 2.0, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0  # a
+OUTLETS = 1.5, 2.0, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0  # a
 # Gap over the film of the formula at the outlet, at least: lines of M 0.3 to 4, L 5 to 25 rupture where it is 1.12 to
 # 1.18, circles of M 0.5 to 3 where it is 1.02 to 1.08, beside the axis, too
 RUPTURED = {"line": 1.2, "point": 1.1}

@@ -341,7 +341,7 @@ class Grid:
     x_min: Union[float, str] = quantity(AUTO, "a", "inlet end of the grid; auto: -2.5, or farther for thick "
                                                    "films", -20.0, -1.2, usual=-2.5)
     x_max: Union[float, str] = quantity(AUTO, "a", "outlet end of the grid; auto: 1.5, or farther for thick "
-                                                   "films", 1.2, 20.0, usual=1.5)
+                                                   "films", 1.2, 14.0, usual=1.5)
     y_max: Union[float, str] = quantity(AUTO, "b", "side end of the grid; auto: 1 of a line, at least 1.5 of a point contact",
                                         0.3, 20.0, usual=1.0)
     inlet: str = choice("flooded", "oil before the grid; flooded: unlimited, its pressure acts at the border; starved: the "
