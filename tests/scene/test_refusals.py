@@ -168,7 +168,7 @@ def test_a_named_oil_comes_before_its_changes():
     ({"feature.1.height": 1e-6}, ("feature.1.height", "has 1 feature")),
     ({"feature.0.foo.height": 1e-6}, ("unknown key feature.0.foo.height",)),
     ({"operation.u_a": 1.0}, ("u_a and u_b together",)),
-    ({"load": 1e3}, ("contact.load = 1000 N/m", "half-width", "at most 5.6e-07 m", "undeformed gap", "more load")),
+    ({"load": 1e3}, ("contact.load = 1000 N/m", "half-width", "at most 1.1e-06 m", "undeformed gap", "more load")),
 ])
 def test_changes_in_python(changes, words):
     refused(lambda: scene("gear").replace(**changes), *words)
