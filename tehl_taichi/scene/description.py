@@ -135,6 +135,7 @@ class Scene:
         file_name("name", self.name)
         TOP["note"].check("note", self.note)
         self._check_kinds()
+        resolution.check_count(self.features)
         if self.contact.moes_M > 0:
             object.__setattr__(self, "operation", dataclasses.replace(self.operation, u_m=self._moes_speed()))
         if self.fatigue.thermal_stress is True and self.isothermal:

@@ -1,11 +1,17 @@
 """Largest height that features reach together, where they overlap or meet."""
 
+import functools
+import math
+from dataclasses import dataclass
+
 import numpy as np
 
+from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.scales import Scales
 
 ALONG, ACROSS = 129, 17  # points over each feature; the one in the middle is the top of a single bump
 WIDEST = 8.0  # a: distance over which a feature without ends is sampled
+MOST = 32  # features over which this is looked for, those in front that may reach most; of each feature the middle is looked at
 
 
 def height_at(features, x, y):
@@ -13,34 +19,81 @@ def height_at(features, x, y):
     return sum(f.height_at(x - f.x, y - f.y) for f in features)
 
 
+@dataclass(frozen=True)
+class Pass:
+    """Rectangle of positions `at` (m) of the first feature and y (m) in which a feature passes the place x (m).
+
+    pace: of its surface, over that of the first feature; 0 at rest. far: m, over which a feature without ends is sampled.
+    """
+
+    feature: Feature
+    x: float
+    pace: float
+    far: float
+
+    @functools.cached_property
+    def along(self):
+        """(centre, half the length) along `at`; the length is infinite at rest, or -1 where that does not reach x."""
+        beside, reach = self.x - self.feature.x, self.feature.reach
+        return (beside / self.pace, reach / abs(self.pace)) if self.pace else (0.0, math.inf if abs(beside) <= reach else -1.0)
+
+    @functools.cached_property
+    def across(self):
+        """(centre, half the length) along y; infinite of a transverse feature."""
+        return self.feature.y, self.feature.reach_y or math.inf
+
+    def meets(self, other):
+        """Whether both rectangles have points in common."""
+        pairs = (self.along, other.along), (self.across, other.across)
+        return all(min(a[1], b[1]) >= 0 and abs(a[0] - b[0]) <= a[1] + b[1] for a, b in pairs)
+
+    @property
+    def middle(self):
+        """Its `at` and y in the middle."""
+        return np.array([[self.along[0]]]), np.array([self.across[0]])
+
+    def points(self):
+        """Points (n, 1) of `at` and (m,) of y over the rectangle."""
+        sides = (self.along, self.far / (abs(self.pace) or 1.0), ALONG), (self.across, self.far, ACROSS)
+        at, y = (np.linspace(centre - min(half, far), centre + min(half, far), count) for (centre, half), far, count in sides)
+        return at[:, None], y
+
+    def height(self, at, y):
+        """Height (m) of the feature at x."""
+        return self.feature.height_at(self.x - self.pace * at - self.feature.x, y - self.feature.y)
+
+
 def highest_at(scene, X, room):
     """Largest height (m) at X (a) of all features together while they pass it, at least that of the highest one. Not above
     `room` (m) it may be that of the highest one alone.
     """
-    tops, a = [f.top for f in scene.features], Scales.of(scene).a
-    alone = max(tops, default=0.0)
-    if sum(top for top in tops if top > 0) <= max(room, alone):
-        return alone
-    at, y = _positions(scene, X * a, a)[:, None], _points(scene.features, "y", WIDEST * a)
-    moved = [(s.features, X * a - (0.0 if s.stands else s.pace) * at) for s in scene.surfaces if s.features]
-    return max(alone, float(sum(height_at(features, x, y) for features, x in moved).max()))
+    a = Scales.of(scene).a
+    return _highest([Pass(f, X * a, 0.0 if s.stands else s.pace, WIDEST * a) for s in scene.surfaces for f in s.features], room)
 
 
 def highest_on(features, a):
     """Largest height (m) of these features of one surface together; a: half-width of the contact, m."""
-    if not features:
-        return 0.0
-    x, y = (_points(features, axis, WIDEST * a) for axis in "xy")
-    return max(*(f.top for f in features), float(height_at(features, x[:, None], y).max()))
+    return _highest([Pass(f, 0.0, 1.0, WIDEST * a) for f in features])
 
 
-def _positions(scene, x, a):
-    """Positions (m) of the first feature at which a feature passes x (m), and one for features at rest."""
-    return np.concatenate([[0.0], *((x - _points([f], "x", WIDEST * a)) / s.pace for s, f in scene.passing)])
+def _highest(passes, room=0.0):
+    """Largest sum of heights over the rectangles of all passes, each with those that it meets."""
+    alone = max([0.0, *(one.feature.top for one in passes)])
+    if _most(passes) <= max(room, alone):
+        return alone
+    near = [[other for other in passes if one.meets(other)] for one in passes]
+    highest = max(alone, *(_sum(some, *one.middle) for one, some in zip(passes, near)))
+    for one, some in sorted(zip(passes, near), key=lambda pair: -_most(pair[1]))[:MOST]:
+        if _most(some) > highest:
+            highest = max(highest, _sum(some, *one.points()))
+    return highest
 
 
-def _points(features, axis, far):
-    """Points (m) over features along an axis; those without ends are sampled over a distance `far` (m)."""
-    count = ALONG if axis == "x" else ACROSS
-    sides = [(getattr(f, axis), min(f.reach if axis == "x" else f.reach_y, far)) for f in features]
-    return np.unique(np.concatenate([np.linspace(at - side, at + side, count) for at, side in sides]))
+def _most(passes):
+    """Height (m) that these passes do not exceed together."""
+    return sum(one.feature.top for one in passes if one.feature.top > 0)
+
+
+def _sum(passes, at, y):
+    """Largest height (m) of these passes together at some points."""
+    return float(np.max(sum(one.height(at, y) for one in passes)))

@@ -46,11 +46,15 @@ def kept_multiple(count, cells):
     return least << HALVED if cells % (least << HALVED) == 0 else least
 
 
+def check_count(features):
+    """Refuse more than MOST_FEATURES features. Raises SceneError."""
+    if len(features) > MOST_FEATURES:
+        raise SceneError(f'{len(features)} features are too many; allowed: at most {MOST_FEATURES}, or all of them in '
+                         'one height map (shape = "map")')
+
+
 def check(scene):
     """Refuse features outside the domain, or that fall between the nodes of the grid. Raises SceneError."""
-    if len(scene.features) > MOST_FEATURES:
-        raise SceneError(f'{len(scene.features)} features are too many; allowed: at most {MOST_FEATURES}, or all of them in '
-                         'one height map (shape = "map")')
     if not scene.transient:
         return
     scales = Scales.of(scene)
