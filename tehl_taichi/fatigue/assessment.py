@@ -223,7 +223,7 @@ def _statistics_below(below, counts, passage):
 
     "plane": statistics of the depth that was searched at all its points, if one was.
     """
-    found = index_statistics.below(passage, below.profiles[0].depths, counts)
+    found = index_statistics.below(passage, below.profiles, counts)
     if below.plane:
         found["plane"] = {"depth_m": below.plane.depth,
                           **_statistics(below.plane, counts, passage.strength.at(below.plane.depth).endurance)}

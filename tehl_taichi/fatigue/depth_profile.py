@@ -4,11 +4,11 @@ A rung is one depth of the ladder. Stresses change smoothly with the logarithm o
 are interpolated (cubic, four rungs), and the worst depth is refined without new stresses of the loads.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from tehl_taichi.fatigue import findley, von_mises
+from tehl_taichi.fatigue import findley, index_statistics, von_mises
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import WorstPoint
 from tehl_taichi.values.interpolation import lagrange
@@ -23,12 +23,14 @@ CLOSE = 0.9      # points above this share of the worst of a rung are searched b
 @dataclass(frozen=True)
 class DepthProfile:
     """Results under one row: value f (depths, x') Pa of the criterion at `depths` (n,) m, the worst point of all depths, the
-    largest von Mises stress (None if the passage does not search it)."""
+    largest von Mises stress (None if the passage does not search it), and value (depths, points) Pa at the depths of statistics
+    of the points that count (None if none do)."""
 
     depths: np.ndarray
     f: np.ndarray
     worst: WorstPoint
     mises: von_mises.VonMisesPeak | None
+    counted: np.ndarray | None = None
 
 
 def ladder(passage):
@@ -45,19 +47,29 @@ def ladder(passage):
     return np.concatenate([shallower, depths[depths <= passage.deepest]])
 
 
-def profiles(passage, rows, moment_sets=(slice(None),), notify=lambda done, total: None):
+def profiles(passage, rows, moment_sets=(slice(None),), notify=lambda done, total: None, counted=None):
     """List of the :class:`DepthProfile` under each row and for each set of moments (all sets of one row are neighbours).
 
     passage: a :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; rows: numbers of rows of its reader; moment_sets:
     sets of moments (slices or arrays of their numbers); notify: called with (done, total) parts of the stresses, then of the
-    searches.
+    searches; counted: result of :func:`tehl_taichi.fatigue.index_statistics.points_below`, for statistics of the first set.
     """
     depths, found = ladder(passage), []
     kinds = [(row, False) for row in rows]
     for n, (row, histories) in enumerate(zip(rows, histories_of(passage, depths, kinds, notify)), 1):
-        found += _profiles(passage, depths, histories, moment_sets, row)
+        first, *others = _profiles(passage, depths, histories, moment_sets, row)
+        if counted and row in counted:
+            first = replace(first, counted=_counted(passage, depths, histories[:, counted[row]][:, :, moment_sets[0]]))
+        found += [first, *others]
         notify(n, len(kinds))
     return found
+
+
+def _counted(passage, rungs, histories):
+    """Values (depths, points) Pa at the depths of statistics; histories (rungs, points, moments, 6) Pa."""
+    depths, logs = index_statistics.depths(passage, rungs), np.log(rungs)
+    stress = np.stack([_between(passage.strength, logs, histories, np.log(depth)) for depth in depths])
+    return _of_planes(passage, depths, stress)[0].reshape(stress.shape[:2])
 
 
 def _profiles(passage, depths, histories, moment_sets, row):

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tehl_taichi.fatigue import candidate_rows, depth_profile, exact_depths
+from tehl_taichi.fatigue import candidate_rows, depth_profile, exact_depths, index_statistics
 from tehl_taichi.fatigue.layer import EarlyLayer, Layer, early_layer, layer
 from tehl_taichi.fatigue.stress.averaging import has_window
 from tehl_taichi.fatigue.worst_point import worst_of
@@ -126,7 +126,8 @@ def _rows(passage, places):
 def _under(passage, rows, early, progress):
     """([profiles of the whole passage], [of its early moments])."""
     moment_sets = _moment_sets(early)
-    found = exact_depths.computed(passage, rows, depth_profile.profiles(passage, rows, moment_sets, progress), moment_sets)
+    between = depth_profile.profiles(passage, rows, moment_sets, progress, index_statistics.points_below(passage))
+    found = exact_depths.computed(passage, rows, between, moment_sets)
     return found[:: len(moment_sets)], found[1::2] if len(moment_sets) > 1 else []
 
 

@@ -5,6 +5,7 @@ not.
 import numpy as np
 
 from tehl_taichi.fatigue import sampled_rows
+from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.averaging import is_mirrored
 from tehl_taichi.scene.rough_surfaces import is_rough
 
@@ -69,28 +70,52 @@ def sample(counts):
     return out.reshape(counts.shape)
 
 
-def below(passage, rungs, counts):
+def depths(passage, rungs):
+    """The depths of statistics (m) that lie between the searched ones, `rungs`."""
+    return [share * passage.a for share in DEPTHS if rungs[0] <= share * passage.a <= rungs[-1]]
+
+
+def points_below(passage):
+    """{number of a row of the reader: mask of its points that count} of the rows in the middle of the features; {} where no
+    statistics are wanted, or those of rows that are spread over a rough surface.
+
+    Other rows are searched by what is worst in them, which depends on rounding.
+    """
+    if passage.sought is Sought.WORST or passage.boxed or passage.y.size > 1 and is_rough(passage.scene):
+        return {}
+    counts = weights(passage)
+    middle = dict.fromkeys(_row(passage, f.centre_y) for f in passage.scene.features)
+    return {passage.rows.start + row: counts[:, row] > 0 for row in middle if counts[:, row].any()}
+
+
+def below(passage, profiles, counts):
     """Statistics at DEPTHS below some rows: "by_depth", and those of the depth with the largest 99th percentile, at least one
     cell deep; "rows": number of these rows.
 
-    The stresses are computed at these depths (:func:`tehl_taichi.fatigue.sampled_rows.indices`). rungs: (n,) m, depths of the
-    search, which bound them.
+    profiles: list of :class:`tehl_taichi.fatigue.depth_profile.DepthProfile`. Their points count; without any, those under rows
+    that are spread evenly (:mod:`tehl_taichi.fatigue.sampled_rows`).
     """
-    depths = [share * passage.a for share in DEPTHS if rungs[0] <= share * passage.a <= rungs[-1]]
-    rows = _rows(passage, counts)
-    Fi, each = sampled_rows.indices(passage, rows, depths, counts)
-    out = [{"depth_m": depth, **statistics(of_depth, each)} for depth, of_depth in zip(depths, Fi)]
+    rungs = profiles[0].depths
+    at = depths(passage, rungs)
+    own = [one for one in profiles if one.counted is not None]
+    rows, Fi, each = _of_profiles(passage, own, at, counts) if own else _of_spread_rows(passage, at, counts)
+    out = [{"depth_m": depth, **statistics(of_depth, each)} for depth, of_depth in zip(at, Fi)]
     seen = [one for one in out if one["depth_m"] >= SEEN * rungs[0]]
-    return {**max(seen or out, key=lambda one: one["p99"]), "rows": len(rows), "by_depth": out}
+    return {**max(seen or out, key=lambda one: one["p99"]), "rows": rows, "by_depth": out}
 
 
-def _rows(passage, counts):
-    """Numbers of the searched rows in the middle of the features; of a rough surface, and beside features that pass no row
-    there, of rows spread evenly over it. Other rows are searched by what is worst in them, which depends on rounding.
-    """
-    middle = dict.fromkeys(_row(passage, f.centre_y) for f in passage.scene.features)
-    own = [] if is_rough(passage.scene) else [row for row in middle if counts[:, row].any()]
-    return np.array(own or sampled_rows.spread(counts))
+def _of_profiles(passage, profiles, depths, counts):
+    """(number of rows, indices (depths, points), weights (points,)) of the points of these profiles that count."""
+    limits = np.array([passage.strength.at(depth).endurance for depth in depths])[:, None]
+    each = [counts[:, _row(passage, one.worst.y)] for one in profiles]
+    return len(profiles), np.concatenate([one.counted for one in profiles], axis=1) / limits, np.concatenate(
+        [of_row[of_row > 0] for of_row in each])
+
+
+def _of_spread_rows(passage, depths, counts):
+    """Return what :func:`_of_profiles` does, of rows spread evenly over those with points that count."""
+    rows = sampled_rows.spread(counts)
+    return rows.size, *sampled_rows.indices(passage, rows, depths, counts)
 
 
 def _row(passage, y):

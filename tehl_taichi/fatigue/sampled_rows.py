@@ -1,8 +1,6 @@
-"""Index of all points that count below some rows, by stresses that are computed at the depths of statistics.
+"""Index of the points that count below rows of a rough surface that are spread evenly over it: a sample of all its points.
 
-Between the rungs of a search an index that is linear in the logarithm of the depth is wrong by up to 1 %. Of a rough surface
-the rows are spread evenly, a sample of all its points. Rows below which the worst point is sought are no sample: of cosines in
-y the row of the feature is a crest of all of them.
+Rows below which the worst point is sought are no sample: of cosines in y the row of the feature is a crest of all of them.
 """
 
 import numpy as np

@@ -96,7 +96,7 @@ def test_the_worst_depth_is_one_that_a_coarser_grid_sees(monkeypatch, cell, chos
     monkeypatch.setattr(sampled_rows, "indices", lambda passage, rows, depths, counts: (
         5e-4 / np.array(depths)[:, None] * np.ones(40), np.ones(40)))
     passage = SimpleNamespace(a=1e-3, y=np.zeros(1), scene=NARROW)
-    found = index_statistics.below(passage, rungs, np.ones((40, 1)))
+    found = index_statistics.below(passage, [SimpleNamespace(depths=rungs, counted=None)], np.ones((40, 1)))
     assert found["depth_m"] == pytest.approx(chosen * 1e-3)
     assert max(one["p99"] for one in found["by_depth"]) >= found["p99"] and len(found["by_depth"]) > (chosen < 0.5)
 
@@ -232,13 +232,17 @@ def test_a_mirrored_half_has_the_percentiles_of_the_whole():
     assert one == pytest.approx(both, rel=1e-6) and index_statistics.statistics(np.zeros(3), np.ones(3))["p99"] == 0.0
 
 
-@pytest.mark.parametrize("passed, chosen", [([2, 3], [2]), ([0, 1, 4], [0, 1, 4])])
-def test_below_single_features_only_their_own_rows_count(passed, chosen):
+@pytest.mark.parametrize("passed, chosen", [([2, 3], [5]), ([0, 1, 4], [])])
+def test_below_single_features_only_their_own_rows_count(monkeypatch, passed, chosen):
     """Further rows are searched because of what is worst in them; a feature between the rows passes those beside it."""
     counts = np.zeros((40, 5))
-    counts[:, passed] = 1.0
-    passage = SimpleNamespace(y=np.linspace(-2e-4, 2e-4, 5), scene=NARROW)
-    assert list(index_statistics._rows(passage, counts)) == chosen
+    counts[:20, passed] = 1.0
+    monkeypatch.setattr(index_statistics, "weights", lambda passage: counts)
+    passage = SimpleNamespace(y=np.linspace(-2e-4, 2e-4, 5), rows=slice(3, 8), scene=NARROW, sought=Sought.ALL, boxed=False)
+    found = index_statistics.points_below(passage)
+    assert list(found) == chosen and all(mask.sum() == 20 for mask in found.values())
+    for more in ({"sought": Sought.WORST}, {"boxed": True}):
+        assert index_statistics.points_below(SimpleNamespace(**{**vars(passage), **more})) == {}
 
 
 @pytest.mark.parametrize("count", [1, 3, 8, 9, 61])
@@ -289,7 +293,9 @@ def test_statistics_below_a_rough_surface_are_those_of_all_its_points(taichi_cpu
 
 @pytest.mark.parametrize("reader, y, cells", [(Rolling, 0.0, 8), (BothSides, 5e-5, 16)])
 def test_statistics_below_a_feature_are_those_of_its_row_at_their_depth(taichi_cpu, reader, y, cells):
-    """Against a search of all points at these depths. Rows of a search beside the axis are numbered as in the whole grid."""
+    """Against a search of all points at these depths: stresses between the rungs are known to a thousandth of the index. Rows
+    of a search beside the axis are numbered as in the whole grid.
+    """
     scene = NARROW.replace(**{"feature.y": y})
     passage = reader(scene, cells, 17)
     deep = assessment.run(scene, passage, alone=False).summary["below"]["statistics"]
@@ -297,7 +303,7 @@ def test_statistics_below_a_feature_are_those_of_its_row_at_their_depth(taichi_c
     assert deep["rows"] == 1 < len(rows[0])
     for one, by_row in zip(deep["by_depth"], rows):
         middle = by_row[min(by_row, key=lambda at: abs(at - y))]
-        assert {**one, **middle} == pytest.approx(one, rel=1e-4)
+        assert {**one, **middle} == pytest.approx(one, rel=1e-3)
 
 
 def test_statistics_below_a_surface_use_the_limit_of_their_depth(taichi_cpu, tmp_path):
