@@ -472,7 +472,7 @@ def test_suggested_commands_take_names_with_spaces(tmp_path):
 def test_a_name_that_is_too_long_is_named(tmp_path):
     name = 250 * "a"
     said = here("run", "gear", "--grid", "64x16", "--isothermal", "--steady", "--out", name, cwd=tmp_path).stderr
-    assert f"cannot write to {name}: its name has 250 bytes; allowed: 249" in said
+    assert f"cannot write to {name}: File name too long (250 bytes; allowed: 249)" in said
 
 
 @pytest.mark.parametrize("make", [os.mkdir, os.mkfifo])

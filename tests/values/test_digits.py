@@ -69,7 +69,7 @@ def test_no_count_of_a_list_has_a_plural_of_its_own():
     sources = [*(ROOT / "tehl_taichi").rglob("*.py"), *(ROOT / "cli").rglob("*.py")]
     found = [hit for path in sources for line in path.read_text(encoding="utf-8").splitlines() for hit in code.findall(line)]
     assert sorted(found) == [
-        "{len(found)} rows", "{len(found)} rows", "{len(names)} names", "{len(scene.features)} features",
+        "{len(features)} features", "{len(found)} rows", "{len(found)} rows", "{len(names)} names",
         "{len(self.stores)} runs", "{len(value)} characters", "{len(warnings)} warnings"]
 
 

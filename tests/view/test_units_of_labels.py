@@ -15,7 +15,8 @@ MEANT = {"h_min_m": f"(?:h_min|smallest film){LENGTH}", "h_c_m": f"h_c{LENGTH}",
          "film_max_C": f"(?:film|temperature){HEAT}", "surface_a_max_C": f"surface a .*{HEAT}", "pressure": f"pressure{STRESS}",
          "surface_b_max_C": f"surface b .*{HEAT}", "film": f"film{LENGTH}", "temperature_mid": f"film.*{HEAT}",
          "temperature_a": f"surface a.*{HEAT}", "temperature_b": f"surface b.*{HEAT}", "load_error": "load()",
-         "mass_error": "mass()", "contact_load_fraction": "load on solid()", "judged_Fi": "Fi judged()"}
+         "mass_error": "mass()", "contact_load_fraction": "load on solid()", "judged_Fi": "Fi judged()",
+         "newton": "Newton()", "cycles": "Krylov()"}
 HEADS = [*((key, head, factor) for key, head, factor, _ in tables.HISTORY), *traction_command.COLUMNS, *sweep_display.SHOWN,
          *sweep_display.STEADY]
 CURVES = [(key, f"{title} ({unit})", factor) for key, title, factor, unit, _ in live_curves.SHOWN]
