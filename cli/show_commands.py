@@ -188,6 +188,8 @@ def _state(saved):
         return f"still being written by {saved.writer}{run_in_stage.words(saved)}"
     if not saved.finished:
         return f"not finished{run_in_stage.words(saved)}; resume with: tehl resume {typed(saved.path)}"
+    if saved.seeks_window and saved.cut is None:
+        return f"finished without the window that it needs; continue with: tehl resume {typed(saved.path)}"
     if saved.cut is None:
         return "finished"
     return f"finished, cut at {saved.cut:.2f} a; extend with: tehl resume {typed(saved.path)}"

@@ -203,7 +203,8 @@ def _parents(path):
 
 def _make_folders(path):
     """Make the folders above `path`. Raises OSError, with the name of a file in their place."""
-    nearest = next(folder for folder in path.absolute().parents if os.path.lexists(folder))
+    above = path.absolute().parents
+    nearest = next((folder for folder in above if os.path.lexists(folder)), above[-1])
     if not os.path.isdir(nearest):
         raise NotADirectoryError(errno.ENOTDIR, f"{nearest} is not a folder")
     path.parent.mkdir(parents=True, exist_ok=True)

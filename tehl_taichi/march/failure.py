@@ -34,7 +34,7 @@ def crossed_surfaces(shot, a, border):
 def _reason(solver, heat, report, passing):
     scene = solver.levels.scene
     others = [", a smaller time.courant"] * scene.transient + [", --precision f64"] * (solver.levels.precision != "f64")
-    remedy = (next(thick_film.warnings(scene), "") or not passing and domain.too_short(scene) or _overloaded(report)
+    remedy = (next(thick_film.warnings(scene), "") or not passing and domain.too_short(scene) or _overloaded(solver, report)
               or _on_its_floor(solver, passing) or f"try a finer grid (--grid){''.join(others)}")
     return f"{_what_failed(solver, heat, report)}; {remedy}"
 
@@ -47,7 +47,7 @@ def _what_failed(solver, heat, report):
                 f"{_heated(heat)}")
     if not report.mass_error < numerics.mass_tolerance:
         return f"mass error {report.mass_error:.1e} (tolerance {numerics.mass_tolerance:.0e}){_heated(heat)}"
-    if _overloaded(report):
+    if _overloaded(solver, report):
         return f"with the oil beyond the domain the contact carries {1 + report.load_error:.0%} of its load"
     if not heat:
         return "film and oil pressure at the border of the grid do not agree"
@@ -58,9 +58,11 @@ def _what_failed(solver, heat, report):
     return f"the temperatures still change by {heat.report.change:.2g} K"
 
 
-def _overloaded(report):
-    """Advice where grid and oil beyond it do not carry the load of the scene together, "" otherwise."""
-    return thick_film.REMEDY if abs(report.load_error) > UNSHARED else ""
+def _overloaded(solver, report):
+    """Advice where a solution on the grid and the oil beyond it do not carry the load of the scene together, "" otherwise."""
+    numerics = solver.levels.scene.numerics
+    solved = report.residual < numerics.tolerance and report.mass_error < numerics.mass_tolerance
+    return thick_film.REMEDY if solved and abs(report.load_error) > UNSHARED else ""
 
 
 def _worst(solver):

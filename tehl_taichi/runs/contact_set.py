@@ -84,7 +84,6 @@ class ContactSet:
         links.refuse(folder)
         if cls.lies_in(folder):
             cls._check_set(folder, own)
-            files.remove_temporaries(folder)
         else:
             cls._check_kind(folder)
             cls._check_free(folder, own)

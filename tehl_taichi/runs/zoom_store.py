@@ -3,7 +3,7 @@
 import time
 from os import PathLike
 
-from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.errors import Error, Interrupted, SceneError, StoreError
 from tehl_taichi.runs import single_run
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.stored_run import Run, check_steps
@@ -43,7 +43,8 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     done = single_run.open(path)
     if steps or not (done.finished and done.store.seeks_window):  # else only its window is missing
         done = single_run.resume(path, steps=steps, threads=threads, progress=progress)
-    return _with_needed_window(done, threads, progress_of(progress)) if done.store.seeks_window else done
+    part = steps and done.rest() is not None or zoom_room.why_none(done.scene)  # has not shown yet what it needs
+    return _with_needed_window(done, threads, progress_of(progress)) if done.store.seeks_window and not part else done
 
 
 def _check(before, factor):
@@ -79,14 +80,25 @@ def _with_needed_window(done, threads, progress):
             progress.say(f"no window: {why}")
             break
         progress.say(f"{zoom_need.reason(done)}: a window of factor {factor}")
-        _note(done, True)
-        done = _with_window(done, factor, threads, progress)
+        done = _with_noted_window(done, factor, threads, progress)
         if zoom_need.settled(done):
             break
     else:
         if not done.scene.zooms:
             progress.say("this grid resolves the passage: no window is needed")
     return _at_the_end(done)
+
+
+def _with_noted_window(done, factor, threads, progress):
+    """The Run with a window of this factor; only an interruption leaves the search open."""
+    _note(done, True)
+    try:
+        return _with_window(done, factor, threads, progress)
+    except Interrupted:
+        raise
+    except Error:
+        _note(done, False)
+        raise
 
 
 def _factors_left(done):

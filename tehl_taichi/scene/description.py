@@ -195,11 +195,12 @@ class Scene:
             gap = 0.5 * end**2 * s.h
             if self.transient and gap < (highest := overlap.highest_at(self, end, gap)):
                 farther = f", or a wider domain: {words}" if (words := domain_warnings.domain_words(self)) else ""
+                together = " together" * (highest > max(f.top for f in self.features))
                 more = math.sqrt(highest / gap) * abs(end) / min(abs(end), domain.INLETS[0])
                 raise SceneError(f"{self._load_words()} gives a half-width a of {s.a:.3g} m and so, at grid.{key} = {end:g} "
                                  f"a, an undeformed gap of {gap:.3g} m, smaller than the height of "
                                  f"{domain_warnings.higher(self, highest)}, {highest:.3g} m; "
-                                 f"allowed: a height of at most {gap:.2g} m, more load{farther}"
+                                 f"allowed: a height of at most {gap:.2g} m{together}, more load{farther}"
                                  f"{self.load_meant(more) or self._form_words()}")
 
     def _check_zoom(self):

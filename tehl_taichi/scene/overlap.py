@@ -84,7 +84,7 @@ def _highest(passes, room=0.0):
     near = [[other for other in passes if one.meets(other)] for one in passes]
     highest = max(alone, *(_sum(some, *one.middle) for one, some in zip(passes, near)))
     for one, some in sorted(zip(passes, near), key=lambda pair: -_most(pair[1]))[:MOST]:
-        if _most(some) > highest:
+        if _most(some) > max(highest, room):
             highest = max(highest, _sum(some, *one.points()))
     return highest
 

@@ -18,9 +18,9 @@ import numpy as np
 from tehl_taichi import __version__
 from tehl_taichi.disk import files
 from tehl_taichi.disk.drafts import remove_whole
-from tehl_taichi.disk.files import reason
+from tehl_taichi.disk.files import reason, store_error
 from tehl_taichi.disk.locked_folder import LockedFolder, locked_folder
-from tehl_taichi.errors import DiskError, Interrupted
+from tehl_taichi.errors import Interrupted
 from tehl_taichi.march.step_output import names
 from tehl_taichi.scene import scene_file
 from tehl_taichi.store import checkpoint, chunks, integrity, layout, stored_maps, written_chunks
@@ -50,7 +50,7 @@ class Store(LockedFolder, Reader):
         """
         place = path if isinstance(path, StoreDraft) else CaseDraft(path)
         try:
-            with _disk_errors(place.folder, "nothing is stored", DiskError):
+            with _disk_errors(place.folder, "nothing is stored", store_error):
                 store = cls._create(place, scene, snapshot, capacity, attrs or {})
                 store._append(snapshot, snapshot.state, put=files.write)  # it has no reader yet
             place.publish()
@@ -201,10 +201,10 @@ class Store(LockedFolder, Reader):
 
 
 @contextlib.contextmanager
-def _disk_errors(path, what_is_left, kind=Interrupted):
-    """Context manager: disk errors (full, read-only, moved) become an error of class `kind`."""
+def _disk_errors(path, what_is_left, error_of=lambda error, message: Interrupted(message)):
+    """Context manager: disk errors (full, read-only, moved) become what error_of(error, message) makes of them."""
     try:
         yield
     except OSError as error:
         why = reason(error) if os.path.exists(path) else "it was moved or removed"
-        raise kind(f"cannot write to {path}: {why}; {what_is_left}") from None
+        raise error_of(error, f"cannot write to {path}: {why}; {what_is_left}") from None

@@ -73,7 +73,7 @@ def writable_folder(path):
     folder = path.absolute()
     if (size := len(os.fsencode(folder.name))) > LONGEST:
         raise StoreError(f"cannot write to {path}: File name too long ({size} bytes; allowed: {LONGEST})")
-    while not os.path.lexists(folder):
+    while not os.path.lexists(folder) and folder != folder.parent:  # a drive may be missing
         folder = folder.parent
     if not os.path.isdir(folder) or not os.access(folder, os.W_OK):
         raise StoreError(f"cannot write to {folder}: no permission, read-only or not a folder")

@@ -50,7 +50,7 @@ class StressHistories:
     left = None  # residual stress by plastic flow: a :class:`tehl_taichi.fatigue.stress.residual_field.ResidualField`
 
     def __init__(self, scene, reader, positions, around=AROUND, surface=None, box=None, sought=Sought.ALL):
-        self.scene, self.reader, self.around, self.last_below, self.sought = scene, reader, around, None, sought
+        self.scene, self.reader, self.around, self.last_below, self.sought = scene, reader, around, {}, sought
         self.surface, self.a = surface or scene.reference, Scales.of(scene).a
         self.strength = Strength(scene.fatigue, self.surface)
         self.loads_of = self._names()
@@ -167,12 +167,13 @@ class StressHistories:
         return self.operator(depth), self.below(depth).at(depth) if self.scene.has_thermal_stress else None
 
     def below(self, depth, make=None):
-        """The ThermalBelow for depths from `depth` (m) on, or what make(passage, depth) returns. The last one is used again if
-        it reaches up to there, since a new one transforms every temperature field.
+        """The ThermalBelow for depths from `depth` (m) on, or what make(passage, depth) returns. The last one of each kind is
+        used again if it reaches up to there, since a new one transforms every temperature field.
         """
-        if self.last_below is None or self.last_below.shallowest > depth:
-            self.last_below = make(self, depth) if make else self.heat(ThermalBelow, depth)
-        return self.last_below
+        last = self.last_below.get(make)
+        if last is None or last.shallowest > depth:
+            self.last_below[make] = last = make(self, depth) if make else self.heat(ThermalBelow, depth)
+        return last
 
     def heat(self, kind, *more):
         """The thermal stress of this passage; kind: ThermalStress, or ThermalBelow with its shallowest depth (m)."""

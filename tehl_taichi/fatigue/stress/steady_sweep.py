@@ -32,7 +32,7 @@ class SteadySweep(StressHistories):
     block = 1  # one entry, which every moment reads
 
     def __init__(self, scene, reader, surface):
-        self.scene, self.surface, self.last_below, self.a = scene, surface, None, Scales.of(scene).a
+        self.scene, self.surface, self.last_below, self.a = scene, surface, {}, Scales.of(scene).a
         self.loads_of, self.strength = self._names(), Strength(scene.fatigue, surface)
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
         self.reader = Steady(reader, self.dx / surface.speed)

@@ -8,6 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 from tehl_taichi.disk import files
+from tehl_taichi.disk.locked_folder import only_writer
 from tehl_taichi.errors import Error, StoreError, for_reader
 from tehl_taichi.runs import place_warnings
 from tehl_taichi.runs.bearing import ellipse_slip, kinematics, load_distribution, ring_contacts, ring_scenes, stiffness
@@ -77,8 +78,9 @@ def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None,
     Bearing.check_writable(target, made)
     made = _with_stored(made, rings) if run else _with_scene_warnings(_with_stored(made, rings), rings)
     _check_scenes(target, rings)
-    made.write()
-    write_scenes(target, rings)
+    with only_writer(Path(target)):
+        made.write()
+        write_scenes(target, rings)
     _report(progress_of(progress), rings, doubts)
     if workers is None and threads is None and passing:
         workers = 1  # all cores for the passage, which takes minutes, the other ring seconds

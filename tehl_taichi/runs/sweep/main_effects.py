@@ -2,7 +2,8 @@
 
 All combinations: the variance of the mean over all other keys, over the whole variance (first-order index of Sobol, 1993); the
 rest comes from keys together. Samples: variance of each key's part of a fit by a sum of one parabola per number and one mean
-per word; the rest is what the fit leaves. Cases without a result are left out.
+per word; the rest is what the fit leaves. Samples without a result are left out; combinations without one mix the keys, so
+there are no shares.
 """
 
 from dataclasses import dataclass
@@ -22,8 +23,8 @@ WITHIN = 2.0  # of the largest error: a spread (largest less smallest value) bel
 class MainEffects:
     """Main effects on one column.
 
-    shares: {keys that change together: share 0 to 1}; together: share of the keys together, None if cases of a grid have no
-    result; why: reason why there are no shares, "" with them.
+    shares: {keys that change together: share 0 to 1}; together: share of the keys together, None without shares; why: reason
+    why there are no shares, "" with them.
     """
 
     shares: dict
@@ -54,7 +55,7 @@ def main_effects(study, name):
         return _of_samples(factors, y)
     levels = np.array([plan.positions(int(n)) for n in numbers])
     shares = {axis.keys: _of_levels(levels[:, n], y, total) for n, axis in enumerate(plan.axes) if len(axis.rows) > 1}
-    return MainEffects(shares, max(0.0, 1.0 - sum(shares.values())) if known.all() else None)
+    return MainEffects(shares, max(0.0, 1.0 - sum(shares.values())))
 
 
 def usual_effects(study):
@@ -65,6 +66,8 @@ def usual_effects(study):
 
 def _why_none(study, name, y):
     """Reason why a column has no main effects; ""."""
+    if not study.plan.drawn and len(y) < len(study.values[name]):
+        return "some cases have no result"
     changing = [axis for axis in study.plan.axes if len(axis.rows) > 1]
     if not study.plan.drawn and len(changing) < 2:
         return "only one key changes"

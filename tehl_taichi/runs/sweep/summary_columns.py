@@ -13,7 +13,7 @@ LEFT_OUT = {"store", "scene", "version", "left_out", "warnings", "warning_codes"
             "converged", "unknown", "unknown_codes", "clamps", "grid", "cells"}
 NAME = re.compile(r"\w[\w.+-]*")  # of an array and its folder, a column and a label
 PART = re.compile(r"(fatigue(_by_surface_[ab])?(_resolved|_averaged)?(_below|_contact_alone)?(_statistics|_von_mises)?"
-                  r"|contact_alone(_by_surface_[ab])?(_von_mises)?|von_mises|run_in(_by_surface_[ab])?"
+                  r"|contact_alone(_by_surface_[ab])?(_von_mises)?|von_mises|run_in(_by_surface_[ab])?|life_contact_alone"
                   r"|[^_]+)_")  # of a summary, inside others
 JUDGED = "judged_Fi"  # the index that decides the verdict
 # shown by default: the first of each line that a study has

@@ -207,7 +207,7 @@ def wrap_labels(figure):
         if place is not None:
             height = figure.get_figheight() * 72 * len(place.rowspan) / place.get_gridspec().nrows
             letters = max(int((height - BESIDE * size) / (1.1 * WIDEST * size)), LEAST)
-            ax.set_ylabel(textwrap.fill(ax.get_ylabel(), letters))
+            ax.set_ylabel(textwrap.fill(ax.get_ylabel(), letters, break_long_words=False, break_on_hyphens=False))
     return figure
 
 

@@ -353,3 +353,17 @@ def test_values_between_known_ones_are_those_of_a_cubic():
 
     assert np.allclose(every_moment.between(known, cubic(known), at), cubic(at), rtol=1e-12, atol=1e-11)
     assert np.allclose(every_moment.between(known[:2], known[:2, None], at)[:, 0], at)
+
+
+def test_heat_of_a_window_and_of_the_fine_grid_are_kept_apart(taichi_cpu):
+    """A whole domain is searched below rows first, then at all points of a depth; each has a heat of its own."""
+    def heats(*order):
+        reader = zoomed(OFF_AXIS)
+        passage = StressHistories(OFF_AXIS, reader, np.array([reader.feature_x(n) for n in range(len(reader))]))
+        row = [(reader.y.size // 2, False)]
+        ways = {"rows": lambda: histories_of(passage, [4e-6], row)[0], "points": lambda: passage.stresses(4e-6)[1](3)}
+        return {name: np.asarray(ways[name]()) for name in order}
+
+    first, last = heats("rows", "points"), heats("points", "rows")
+    for name, values in first.items():
+        assert values == pytest.approx(last[name], rel=1e-6, abs=1e-6 * float(np.abs(values).max()))

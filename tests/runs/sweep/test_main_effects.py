@@ -69,13 +69,21 @@ def test_no_shares_without_reason(over, options, why, tmp_path):
     assert "share of the spread" not in here("show", study.path).stdout
 
 
+def test_combinations_without_a_result_leave_no_shares(tmp_path):
+    """The means over one key would contain the other one: 97 % and 46 % of one spread."""
+    over = {"srr": [0.0, 0.1, 0.2], "height": [1e-6, 2e-6]}
+    study = computed(tmp_path, over, lambda x, y, law: None if y > 1.5 and x < 0.15 else 10 * x + 0.5 * y)
+    found = study.main_effects("fatigue_Fi_max")
+    assert found["shares"] == {} and found["together"] is None and found["why"] == "some cases have no result"
+
+
 def test_they_are_shown(tmp_path):
-    """In the table, in JSON, on the page and over the panels; cases without a result count nowhere."""
+    """In the table, in JSON, on the page and over the panels."""
     pytest.importorskip("matplotlib")
     over = {"srr": [-0.1, 0.1, 0.3], "height": [0.1e-6, 1.1e-6], "rheology.law": ["limiting", "eyring"]}
-    study = computed(tmp_path, over, lambda x, y, law: None if x > 0.2 and law == "eyring" else x + 0.1 * y)
+    study = computed(tmp_path, over, lambda x, y, law: x + 0.1 * y + 0.02 * (law == "eyring"))
     found, together = shares(study)
-    assert together is None and max(found, key=found.get) == "srr"
+    assert together < 1e-9 and max(found, key=found.get) == "srr"
     printed = here("show", study.path).stdout
     assert "share of the spread" in printed and f"{found['srr']:.0%}" in printed
     assert study.to_dict()["main_effects"]["judged_Fi"]["shares"] == pytest.approx(found)

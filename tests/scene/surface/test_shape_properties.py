@@ -162,3 +162,13 @@ def test_the_area_of_a_ridge():
         x = 150 * np.linspace(-1.5, 1.5, 3001)
         area = made(SHAPES[shape]).height_at(x * UM, 0.0).sum() * (x[1] - x[0]) / UM
         assert area == pytest.approx(sign * 150 * math.sqrt(math.pi / b) * math.exp(-math.pi**2 / b), rel=1e-6)
+
+
+@pytest.mark.parametrize("extent, taper", [(200e-6, 50e-6), (200e-6, 90e-6), (600e-6, 50e-6)])
+@pytest.mark.parametrize("length", [0.0, 300e-6])
+def test_the_top_of_troughs_is_a_crest_within_their_patch(extent, taper, length):
+    """Of waves of 200 and 400 um the first crest is outside, in the taper or whole."""
+    x, y = np.linspace(-4e-4, 4e-4, 1601)[:, None], np.linspace(-4e-4, 4e-4, 401)
+    for width in (200e-6, 400e-6):
+        f = Feature(shape="waviness", height=-2e-6, width=width, length=length, extent_x=extent, taper=taper)
+        assert f.top == pytest.approx(max(0.0, f.height_at(x, y).max()), abs=2e-9)

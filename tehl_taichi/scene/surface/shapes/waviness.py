@@ -21,8 +21,11 @@ class Waviness(Patch):
         return f.height * np.cos(2 * np.pi * x / f.width) * across * self.window(f, x, y)
 
     def top(self, f):
-        """Largest height: of waves with a negative one, that of their first crest."""
-        return abs(f.height)
+        """Largest height: of waves with a negative one, that of their first crest, as far as it lies in the patch."""
+        if f.height >= 0:
+            return f.height
+        x, y = np.linspace(0.0, f.width, 129)[:, None], np.linspace(0.0, f.length, 65)
+        return max(0.0, float(self.height(f, x, y).max()))
 
     def transverse(self, f):
         return f.length == 0 and f.extent_y == 0
