@@ -376,12 +376,15 @@ def test_the_row_of_the_film_formula_stands_where_there_is_one(formula):
     assert found == ([("h_c by formula (Moes, line)", "0.1200 um")] if formula else [])
 
 
-@pytest.mark.parametrize("cut, said", [(None, "finished"),
-                                       (0.42, "finished, cut at 0.42 a; extend with: tehl resume 'my run.zarr'")])
-def test_the_state_of_a_finished_run_says_where_it_was_cut(cut, said):
+@pytest.mark.parametrize("cut, seeks, said", [
+    (None, False, "finished"), (0.42, False, "finished, cut at 0.42 a; extend with: tehl resume 'my run.zarr'"),
+    (None, True, "finished without the window that it needs; continue with: tehl resume 'my run.zarr'")])
+def test_the_state_of_a_finished_run_says_what_it_lacks(cut, seeks, said):
+    """Where it was cut, or the window that --zoom auto was looking for."""
     from tehl_cli.show_commands import _state
 
-    assert _state(SimpleNamespace(writer=None, finished=True, cut=cut, path="my run.zarr", steps=7)) == said
+    run = SimpleNamespace(writer=None, finished=True, cut=cut, path="my run.zarr", steps=7, seeks_window=seeks)
+    assert _state(run) == said
 
 
 @pytest.mark.parametrize("good, right", [(True, True), (False, True), (True, False)])
