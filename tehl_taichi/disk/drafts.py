@@ -201,12 +201,16 @@ def _parents(path):
     return [folder for folder in path.absolute().parents if not os.path.exists(folder)]
 
 
+def nearest(path):
+    """The file or folder at this absolute path, or the nearest one above it; the root where there is none, as of a drive."""
+    return next((place for place in (path, *path.parents) if os.path.lexists(place)), Path(path.anchor))
+
+
 def _make_folders(path):
     """Make the folders above `path`. Raises OSError, with the name of a file in their place."""
-    above = path.absolute().parents
-    nearest = next((folder for folder in above if os.path.lexists(folder)), above[-1])
-    if not os.path.isdir(nearest):
-        raise NotADirectoryError(errno.ENOTDIR, f"{nearest} is not a folder")
+    folder = nearest(path.absolute().parent)
+    if not os.path.isdir(folder):
+        raise NotADirectoryError(errno.ENOTDIR, f"{folder} is not a folder")
     path.parent.mkdir(parents=True, exist_ok=True)
 
 

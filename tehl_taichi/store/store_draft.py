@@ -5,7 +5,7 @@ import shutil
 from pathlib import Path
 
 from tehl_taichi.disk import links, user_files
-from tehl_taichi.disk.drafts import Draft, exists, remove
+from tehl_taichi.disk.drafts import Draft, exists, nearest, remove
 from tehl_taichi.disk.files import reason, store_error
 from tehl_taichi.disk.locks import Busy, Lock
 from tehl_taichi.errors import DiskError, StoreError
@@ -73,8 +73,7 @@ def writable_folder(path):
     folder = path.absolute()
     if (size := len(os.fsencode(folder.name))) > LONGEST:
         raise StoreError(f"cannot write to {path}: File name too long ({size} bytes; allowed: {LONGEST})")
-    while not os.path.lexists(folder) and folder != folder.parent:  # a drive may be missing
-        folder = folder.parent
+    folder = nearest(folder)
     if not os.path.isdir(folder) or not os.access(folder, os.W_OK):
         raise StoreError(f"cannot write to {folder}: no permission, read-only or not a folder")
     return folder

@@ -21,12 +21,18 @@ def of_searches(searches, fatigue):
     point, early = judged_layers.judged_point(searches), judged_layers.deciding(searches)[1]
     if point.Fi <= LEAST:
         return {}
-    passages, reasons = fatigue.limit_cycles * point.Fi**-fatigue.exponent, reasons_of(point.part)
-    return {"passages": passages, "exponent": fatigue.exponent, "limit_cycles": fatigue.limit_cycles, "Fi": point.Fi,
-            "surface": point.surface, "depth_m": point.depth, "length_m": point.length, "resolved": early,
-            "error": {"passages": bar(passages, point.Fi, point.error, fatigue.exponent)},
+    reasons = reasons_of(point.part)
+    return {**_passages(point.Fi, point.error, fatigue), "surface": point.surface, "depth_m": point.depth,
+            "length_m": point.length, "resolved": early,
             **unknown_of({"passages": reasons[point.key]} if point.key in reasons else {}),
             **_of_load(searches, fatigue, point.Fi)}
+
+
+def _passages(Fi, error, fatigue):
+    """Numbers of a part "life" that follow from an index, its error (or None) and the section of the scene."""
+    passages = fatigue.limit_cycles * Fi**-fatigue.exponent
+    return {"passages": passages, "exponent": fatigue.exponent, "limit_cycles": fatigue.limit_cycles, "Fi": Fi,
+            "error": {"passages": bar(passages, Fi, error, fatigue.exponent)}}
 
 
 def _of_load(searches, fatigue, Fi):
@@ -40,10 +46,7 @@ def _of_load(searches, fatigue, Fi):
     error = error_of(alone, "Fi_max")
     if error is None or alone["Fi_max"] - error <= Fi:
         return {}
-    passages = fatigue.limit_cycles * alone["Fi_max"] ** -fatigue.exponent
-    return {"contact_alone": {"passages": passages, "exponent": fatigue.exponent, "limit_cycles": fatigue.limit_cycles,
-                              "Fi": alone["Fi_max"], "surface": name, "depth_m": alone["depth_m"],
-                              "error": {"passages": bar(passages, alone["Fi_max"], error, fatigue.exponent)}}}
+    return {"contact_alone": {**_passages(alone["Fi_max"], error, fatigue), "surface": name, "depth_m": alone["depth_m"]}}
 
 
 def part(searches, fatigue):
