@@ -62,7 +62,6 @@ def run(
     """
     import tehl_taichi as tehl
     from tehl_taichi.runs import single_run, zoom_store
-    from tehl_taichi.scene import zoom_room
     from tehl_taichi.store.load_scene import find_changed
 
     changes = changes_of(
@@ -84,7 +83,7 @@ def run(
         single_run.check(description, out, force, threads, arch)
         return _print_plan(description) if as_json else _print_scene(description)
     with Live(quiet, curves) as live, time_budget(live if timing else None) as budget:
-        compute = zoom_store.run if zoom == AUTO and not zoom_room.why_none(description) else tehl.run
+        compute = zoom_store.run if zoom == AUTO else tehl.run
         done = compute(description, out, force=force, threads=threads, arch=arch, progress=live)
     _print(done, as_json, description.warnings(), budget)
     if description.time.steps == 0 and not quiet:

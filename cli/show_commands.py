@@ -188,7 +188,7 @@ def _state(saved):
         return f"still being written by {saved.writer}{run_in_stage.words(saved)}"
     if not saved.finished:
         return f"not finished{run_in_stage.words(saved)}; resume with: tehl resume {typed(saved.path)}"
-    if saved.seeks_window and saved.cut is None:
+    if saved.seeks_window:
         return f"finished without the window that it needs; continue with: tehl resume {typed(saved.path)}"
     if saved.cut is None:
         return "finished"

@@ -349,7 +349,7 @@ def _what_is_left(path):
         return f"; {path} can no longer be read"
     if left.finished and not left.store.seeks_window:
         return f"; {path} is finished"
-    missing = ", the whole passage; the window that it needs is missing" if left.finished else _missing_words(left)
+    missing = "; the window that it needs is missing" if left.finished else _missing_words(left)
     return f" after {number_of(left.store.last_step, 'step')}{missing}; resume with: tehl resume {typed(path)}"
 
 

@@ -314,6 +314,8 @@ class Run:
         if not self.finished and not steps:
             return self.scene
         found = remaining_scene(self.scene, self.store.last_step, steps)
+        if found and self.store.window_search:  # the longer passage may need another one
+            found = found.replace(**{"zoom.factor": 0})
         return found or (None if self.finished else self.scene)
 
     def __repr__(self):

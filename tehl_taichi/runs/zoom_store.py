@@ -8,6 +8,7 @@ from tehl_taichi.runs import single_run
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.stored_run import Run, check_steps
 from tehl_taichi.scene import Scene, refinement, zoom_room
+from tehl_taichi.store.integrity import EXTENDED, SEEKS
 from tehl_taichi.values.escape import typed
 from tehl_taichi.values.quantity import AUTO
 
@@ -21,14 +22,12 @@ def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = N
     _check(before, factor)
     if factor == AUTO:
         return _with_needed_window(before, threads, progress)
-    return _at_the_end(_with_window(before, factor, threads, progress))
+    return _with_window(_noted(before, None), factor, threads, progress)
 
 
 def run(scene: Scene, path: str | PathLike | None = None, *, threads: int | None = None, progress: Progress | None = None,
         force: bool = False, arch: str | None = None) -> Run:
     """Run a scene and add the window that it needs, as `tehl run --zoom auto` does; arguments: of :func:`tehl_taichi.run`."""
-    from tehl_taichi.store.integrity import SEEKS
-
     done = single_run.into_new_store(scene, path, force, threads, arch, progress, attrs={SEEKS: True})
     return _with_needed_window(done, threads, progress_of(progress))
 
@@ -43,8 +42,7 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
     done = single_run.open(path)
     if steps or not (done.finished and done.store.seeks_window):  # else only its window is missing
         done = single_run.resume(path, steps=steps, threads=threads, progress=progress)
-    part = steps and done.rest() is not None or zoom_room.why_none(done.scene)  # has not shown yet what it needs
-    return _with_needed_window(done, threads, progress_of(progress)) if done.store.seeks_window and not part else done
+    return _with_needed_window(done, threads, progress_of(progress)) if done.store.seeks_window else done
 
 
 def _check(before, factor):
@@ -75,6 +73,8 @@ def _with_needed_window(done, threads, progress):
     """
     from tehl_taichi.runs import zoom_need
 
+    if zoom_room.why_none(done.scene):  # a part too short for a window
+        return _at_the_end(done)
     for factor in _factors_left(done):
         if why := refinement.no_window(done.scene, factor):
             progress.say(f"no window: {why}")
@@ -91,13 +91,12 @@ def _with_needed_window(done, threads, progress):
 
 def _with_noted_window(done, factor, threads, progress):
     """The Run with a window of this factor; only an interruption leaves the search open."""
-    _note(done, True)
     try:
-        return _with_window(done, factor, threads, progress)
+        return _with_window(_noted(done, True), factor, threads, progress)
     except Interrupted:
         raise
     except Error:
-        _note(done, False)
+        _at_the_end(done)
         raise
 
 
@@ -111,15 +110,16 @@ def _factors_left(done):
 
 
 def _at_the_end(done):
-    """The run, whose store no longer seeks a window."""
-    _note(done, False)
-    return single_run.open(done.path) if done.store.seeks_window else done
+    """The run, whose store seeks a window again only if its passage is extended."""
+    return _noted(done, EXTENDED if done.rest() is not None else None)
 
 
-def _note(done, seeks):
-    """Note in the store of a run whether it seeks a window."""
+def _noted(done, state):
+    """The run with a note on the state of its search for a window."""
     from tehl_taichi.store.store import Store
 
-    if done.store.seeks_window != seeks:
-        with Store.write(done.path) as saved:
-            saved.note_search(seeks)
+    if done.store.window_search == state:
+        return done
+    with Store.write(done.path) as saved:
+        saved.note_search(state)
+    return single_run.open(done.path)

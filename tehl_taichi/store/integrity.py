@@ -25,7 +25,8 @@ from tehl_taichi.values.escape import typed
 
 FORMAT = 3  # 1: version 0.1, without checksums; 2: to 0.6.1, every entry of a field in folders of its own
 CHECKPOINTS = ".checkpoints"
-SEEKS = "seeks_window"  # attribute of a run whose window is not found yet
+SEEKS = "seeks_window"  # attribute of a run that gets the window it needs: True until it is found, then EXTENDED or nothing
+EXTENDED = "if extended"  # the passage was cut: the window of more of it may be another
 OURS = {ROOT, f"{ROOT}.tmp", CHECKPOINTS, LOCK}  # .tmp: to version 0.8
 
 

@@ -70,7 +70,14 @@ class Reader:
     @property
     def seeks_window(self):
         """Whether the run still has to find the window that it needs (`tehl run --zoom auto`)."""
-        return self.attrs.get(integrity.SEEKS) is True
+        return self.window_search is True
+
+    @property
+    def window_search(self):
+        """State of the search for the window that the run needs: True until it is found, EXTENDED if it begins again with a
+        longer passage, None without one.
+        """
+        return self.attrs.get(integrity.SEEKS)
 
     @property
     def writer(self):

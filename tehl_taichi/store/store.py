@@ -175,19 +175,20 @@ class Store(LockedFolder, Reader):
             raise
 
     def extend(self, scene):
-        """Extend a finished run: `scene` differs only in its end; the results are removed."""
+        """Extend a finished run: `scene` differs only in its end or its window; the results are removed."""
         for name in integrity.optional_value(self.attrs, "results", []):
             self.metadata.pop(name, None)
-        self.scene, self.attrs = scene, {name: value for name, value in self.attrs.items() if name != "summary"}
+        search = {integrity.SEEKS: True} if self.window_search and scene.time != self.scene.time else {}
+        self.scene, self.attrs = scene, {name: value for name, value in self.attrs.items() if name != "summary"} | search
         with _disk_errors(self.path, f"then use: tehl resume {typed(self.path)}"):
             self._commit(scene=json.dumps(scene.to_dict()), scene_toml=scene_file.dumps(scene), results="[]", finished=False,
                          **texts(scene.typed_warnings))
 
-    def note_search(self, seeks):
-        """Note whether the run seeks the window that it needs. Raises Interrupted."""
+    def note_search(self, state):
+        """Note the state of the search for the window that the run needs, see :attr:`window_search`. Raises Interrupted."""
         with _disk_errors(self.path, f"then use: tehl resume {typed(self.path)}"):
             self.attrs = {name: value for name, value in self.attrs.items() if name != integrity.SEEKS}
-            self._commit(**{integrity.SEEKS: True} if seeks else {})
+            self._commit(**{integrity.SEEKS: state} if state else {})
 
     def finish(self, summary, maps=None):
         """Store the summary (and maps {name: (values, dims, units, text)}) and mark the run as finished."""

@@ -376,9 +376,12 @@ def test_the_row_of_the_film_formula_stands_where_there_is_one(formula):
     assert found == ([("h_c by formula (Moes, line)", "0.1200 um")] if formula else [])
 
 
+SEEKING = "finished without the window that it needs; continue with: tehl resume 'my run.zarr'"
+
+
 @pytest.mark.parametrize("cut, seeks, said", [
     (None, False, "finished"), (0.42, False, "finished, cut at 0.42 a; extend with: tehl resume 'my run.zarr'"),
-    (None, True, "finished without the window that it needs; continue with: tehl resume 'my run.zarr'")])
+    (None, True, SEEKING), (0.42, True, SEEKING)])
 def test_the_state_of_a_finished_run_says_what_it_lacks(cut, seeks, said):
     """Where it was cut, or the window that --zoom auto was looking for."""
     from tehl_cli.show_commands import _state

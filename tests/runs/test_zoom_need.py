@@ -20,8 +20,8 @@ class Stored(types.SimpleNamespace):
 def finished(scene, resolved=None, error=None, monkeypatch=None):
     """A finished run whose grid resolves the pressure up to a place, with the error of its largest pressure."""
     monkeypatch.setattr(zoom_need.coarse_runs, "resolved", lambda *given: resolved)
-    store = Stored(scalar=None, scene=scene, seeks_window=False)
-    return types.SimpleNamespace(scene=scene, store=store, path="a.zarr", finished=True,
+    store = Stored(scalar=None, scene=scene, seeks_window=False, window_search=None)
+    return types.SimpleNamespace(scene=scene, store=store, path="a.zarr", finished=True, rest=lambda: None,
                                  summary={"transient": {"error": {"p_max_Pa": error}}})
 
 
@@ -91,9 +91,9 @@ def windows(monkeypatch):
 
         monkeypatch.setattr(single_run, "open", lambda path: before, raising=False)
         monkeypatch.setattr(zoom_store, "_with_window", window)
-        monkeypatch.setattr(zoom_store, "_note", lambda done, now: seeks.append(now))
+        monkeypatch.setattr(zoom_store, "_noted", lambda done, now: seeks.append(now) or done)
         run = zoom_store._with_needed_window(before, None, progress)
-        assert seeks == [True] * len(tried) + [False]
+        assert seeks == [True] * len(tried) + [None]
         return run, tried, progress.texts
 
     return search

@@ -23,6 +23,7 @@ from tehl_taichi.view.zoom_window import ZoomWindow
 
 LINE = tehl.scene("pitch-line").replace(**{"feature.length": float("inf"), "grid.nx": 64, "thermal.on": False,
                                            "fatigue.surfaces": "a", "time.x_end": 0.4, "numerics.estimate_error": False})
+WHOLE = LINE.replace(**{"time.x_end": float("inf"), "numerics.estimate_error": True, "fatigue.on": False})
 ZOOMED = LINE.replace(**{"zoom.factor": 4})
 
 
@@ -332,11 +333,37 @@ def test_a_stopped_search_for_a_window_is_resumed_to_the_same_result(sought, fol
             np.testing.assert_array_equal(found.to_xarray()[name], sought.to_xarray()[name], err_msg=name)
 
 
+@pytest.fixture(scope="module")
+def whole(folder):
+    """The whole passage with the window that it needs, finer than that of its first 20 steps."""
+    from tehl_taichi.runs import zoom_store
+
+    done = zoom_store.run(WHOLE, folder / "whole.zarr")
+    assert done.scene.zoom.factor == 8 and done.store.window_search is None
+    return done
+
+
+@pytest.mark.parametrize("steps", [1, 20])
+def test_a_part_of_a_passage_does_not_end_the_search_for_its_window(whole, folder, steps):
+    """A part of it, a longer part, then the rest: the window and all numbers are those of the unbroken run."""
+    from tehl_taichi.runs import zoom_store
+
+    path = folder / f"part{steps}.zarr"
+    part = zoom_store.run(WHOLE.replace(**{"time.steps": steps}), path)
+    assert part.finished and not part.store.seeks_window and part.store.window_search
+    for more, last in ((("--steps", 3), steps + 3), ((), whole.store.last_step)):
+        done = here("resume", path, "--quiet", *more)
+        assert done.returncode == 0 and tehl.open(path).store.last_step == last, done.stderr
+    found = tehl.open(path)
+    assert found.scene == whole.scene and found.store.window_search is None
+    assert numbers(found.summary) == numbers(whole.summary)
+
+
 def test_a_chosen_window_ends_the_search(sought, folder):
     from tehl_taichi.runs import zoom_store
 
     path = shutil.copytree(sought.path, folder / "chosen.zarr")
-    zoom_store._note(tehl.open(path), True)
+    zoom_store._noted(tehl.open(path), True)
     assert tehl.open(path).store.seeks_window
     done = tehl.zoom(path, 4)
     assert not done.store.seeks_window and not tehl.open(path).store.seeks_window
