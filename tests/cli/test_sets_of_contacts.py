@@ -112,13 +112,22 @@ def test_parts_of_the_time_are_shares_in_per_cent(capsys):
     assert "75 %" in shown and "25 %" in shown and "7.50" in shown
 
 
-def test_an_interrupted_command_names_its_option(tmp_path, monkeypatch):
+@pytest.mark.parametrize("words, count", [(("flank", "fzg-c", "--steady", "--at", "C"), "1 contact"),
+                                          (("cam", "cam.csv"), "2 contacts"), (("bearing", "6206"), "2 contacts")])
+def test_a_command_that_is_interrupted_before_its_first_result_is_resumed_with_its_option(tmp_path, monkeypatch, words, count):
+    """Its folder, named in the message, opens and says what has not run; the same command then finishes it."""
     def stopped(job, *_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(case, "run_case", stopped)
-    found = here("flank", "fzg-c", "--steady", "--at", "C", *QUICK, "--out", "f", cwd=tmp_path)
-    assert found.returncode == 4 and "after 0 of 1 contact; repeat the command with --out f to resume" in found.stderr
+    (tmp_path / "cam.csv").write_text(CAM)
+    command = *words, *QUICK, "--out", "f"
+    with monkeypatch.context() as stops:
+        stops.setattr(case, "run_case", stopped)
+        found = here(*command, cwd=tmp_path)
+    assert found.returncode == 4 and f"after 0 of {count}; repeat the command with --out f to resume" in found.stderr
+    assert here("show", "f", cwd=tmp_path).returncode == 0 and tehl.open(tmp_path / "f").KIND == words[0]
+    failing(monkeypatch)
+    assert here(*command, cwd=tmp_path).returncode == 0
 
 
 def test_a_row_without_a_name_is_called_by_its_place(tmp_path):

@@ -180,32 +180,50 @@ def test_commands_without_room_for_their_runs_do_not_begin(tmp_path, monkeypatch
         assert found.returncode == 1 and "only 3 MB left" in found.stderr and list(tmp_path.iterdir()) == [cycle], words
 
 
-def test_a_study_on_a_full_disk_is_interrupted_once_it_has_a_result(tmp_path, monkeypatch):
-    """The exit code of a run that is resumed from its stored steps."""
+REFUSED = [(errno.ENOSPC, 1), (errno.EACCES, 2), (errno.EROFS, 2)]
+
+
+@pytest.mark.parametrize("number, first", REFUSED)
+@pytest.mark.parametrize("stored, left", [(0, None), (0, "0000.zarr"), (1, None)])
+def test_a_study_is_interrupted_by_the_disk_once_it_has_a_store_or_a_result(tmp_path, monkeypatch, number, first, stored, left):
+    """The exit code of a run that is resumed from its stored steps; before them that of a full disk, or of a path."""
     path, over = tmp_path / "s.zarr", {"srr": [0.1, 0.2]}
 
-    def second(job, progress=None):
-        monkeypatch.setattr("tehl_taichi.runs.sweep.case_records.append", full)
+    def refuse(*_, **__):
+        raise OSError(number, os.strerror(number))
+
+    def last(job, progress=None):
+        monkeypatch.setattr("tehl_taichi.runs.sweep.case_records.append", refuse)
+        if left:
+            (path / "cases" / left).mkdir()
         return made_up(job)
 
-    answers = iter((made_up, second))
-    with pytest.raises(tehl.Interrupted, match="No space left on device; stored cases are kept") as found:
+    answers = iter((*[made_up] * stored, last))
+    with pytest.raises(tehl.Error, match=f"{os.strerror(number)}; stored cases are kept") as found:
         sweeping.run(plan(GEAR, over), path, workers=1, work=lambda job, progress=None: next(answers)(job))
-    assert found.value.exit_code == 4 and Study.open(path).counts["converged"] == 1
+    assert found.value.exit_code == (4 if stored or left else first) and Study.open(path).counts["converged"] == stored
 
 
-def test_a_flank_on_a_full_disk_is_interrupted(tmp_path, monkeypatch):
+@pytest.mark.parametrize("number, first", REFUSED)
+@pytest.mark.parametrize("writes, code", [(0, None), (1, 4)])
+def test_a_flank_that_the_disk_refuses_is_interrupted_once_it_has_a_result(tmp_path, monkeypatch, number, first, writes, code):
     from tehl_taichi.runs.flank import outcomes
 
     class Full:
-        folder = tmp_path / "my flank"
+        folder, left = tmp_path / "my flank", iter(range(writes))
+
+        def lies_in(self, folder):
+            return False
 
         def write(self):
-            raise files.store_error(OSError(errno.ENOSPC, "full"), "cannot write")
+            if next(self.left, None) is None:
+                raise files.store_error(OSError(number, "refused"), "cannot write")
 
     monkeypatch.setattr(outcomes, "summaries", lambda *_: iter([(0, None)]))
-    with pytest.raises(tehl.Interrupted, match="cannot write; repeat the call with folder='.*my flank' to resume"):
+    with pytest.raises(tehl.Error, match="cannot write") as found:
         outcomes.computed(Full(), lambda made, n, outcome: made, [GEAR])
+    assert found.value.exit_code == (code or first)
+    assert ("; repeat the call with folder='" in str(found.value)) is bool(code)
 
 
 def test_the_systems_refusals_are_told_without_their_numbers(tmp_path, monkeypatch):

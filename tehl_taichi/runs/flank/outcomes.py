@@ -1,11 +1,12 @@
 """Jobs of a flank: its scenes run in parallel or in this process; results in existing stores are reused."""
 
+import itertools
 import os
 from dataclasses import dataclass
 from pathlib import Path
 
 from tehl_taichi.disk.locked_folder import only_writer
-from tehl_taichi.errors import DiskError, Interrupted, StoreError, are_options_typed, interrupt
+from tehl_taichi.errors import Interrupted, StoreError, are_options_typed, interrupt
 from tehl_taichi.runs import passages_left, single_run
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.single_run import check_version
@@ -27,22 +28,31 @@ class Outcome:
 
 
 def computed(made, with_outcome, scenes, workers=None, threads=None, progress=None):
-    """The ContactSet `made` with the outcomes of the scenes, written after each; arguments and errors: :func:`summaries`.
+    """The ContactSet `made` with the outcomes of the scenes, written first (unless it lies there) and after each outcome.
 
-    with_outcome(set, n, outcome): the set with the outcome of scene n. Also raises Busy if another process writes in its
-    folder.
+    with_outcome(set, n, outcome): the set with the outcome of scene n. Other arguments and errors: :func:`summaries`; also
+    raises Busy if another process writes in its folder, StoreError if the folder cannot be written, then Interrupted.
     """
     done = 0
     try:
         with only_writer(Path(made.folder)):
-            for n, outcome in summaries(scenes, made.folder, workers, threads, progress):
-                made, done = with_outcome(made, n, outcome), done + 1
+            found = summaries(scenes, made.folder, workers, threads, progress)
+            if not made.lies_in(made.folder):
                 made.write()
+            for n, outcome in found:
+                made, done = with_outcome(made, n, outcome), done + 1
+                _write(made)
     except KeyboardInterrupt as stop:
         raise interrupt(stop, f" after {part_of(done, len(scenes), 'contact')}; {_remedy(made)}") from None
-    except DiskError as error:
-        raise Interrupted(f"{error}; {_remedy(made)}") from None
     return made
+
+
+def _write(made):
+    """Write a set with its outcomes. Raises Interrupted, because its stores are resumed."""
+    try:
+        made.write()
+    except StoreError as error:
+        raise Interrupted(f"{error}; {_remedy(made)}") from None
 
 
 def _remedy(made):
@@ -52,7 +62,7 @@ def _remedy(made):
 
 
 def summaries(scenes, folder, workers=None, threads=None, progress=None):
-    """Generator of (number of the scene, its Outcome) in order of completion, each with a store NAME.zarr in `folder`.
+    """Iterator of (number of the scene, its Outcome) in order of completion, each with a store NAME.zarr in `folder`.
 
     A scene that does not converge, or loses its worker twice, does not stop the others. An existing store is resumed. workers,
     threads: see :func:`tehl_taichi.runs.sweep.pool.sizes`. Raises StoreError for a store of another scene; KeyboardInterrupt
@@ -63,10 +73,7 @@ def summaries(scenes, folder, workers=None, threads=None, progress=None):
     todo = [n for n in range(len(places)) if n not in done]
     workers, threads = pool.sizes(workers, threads, jobs=len(todo), words="--threads")
     pool.check(workers, threads)
-    yield from done.items()
-    progress = _KindsOnce(progress_of(progress))
-    yield from _run(places, todo, workers, threads, progress, Path(folder))
-    progress.stage(STAGE, len(places), len(places))
+    return itertools.chain(done.items(), _run(places, todo, workers, threads, _KindsOnce(progress_of(progress)), Path(folder)))
 
 
 def stored_outcomes(scenes, folder):
@@ -106,6 +113,7 @@ def _run(places, todo, workers, threads, progress, folder):
                 _report(progress, scene, outcome, f"{ended + 1} of {count}")
             progress.stage(STAGE, ended + 1, count)
             yield n, outcome
+    progress.stage(STAGE, count, count)
 
 
 def _outcome(path, answer):

@@ -135,12 +135,13 @@ class Study(LockedFolder):
 
     @contextlib.contextmanager
     def _disk_errors(self):
-        """Context manager: disk errors (full, read-only) become Interrupted, before the first result a StoreError."""
+        """Context manager: disk errors (full, read-only) become Interrupted, before the first store or result a StoreError."""
         try:
             yield
         except OSError as error:
             what = f"cannot write to {self.path}: {reason(error)}; stored cases are kept, and the same command resumes"
-            raise (Interrupted(what) if self.status.any() else store_error(error, what)) from None
+            begun = self.status.any() or any((self.path / CASES).glob("*.zarr"))
+            raise (Interrupted(what) if begun else store_error(error, what)) from None
 
     def close(self) -> None:
         """Write all pending data and release the lock."""
