@@ -43,7 +43,7 @@ def of(store):
     found = (of_fatigue(summary["fatigue"], store.scene, others(summary)) if "fatigue" in summary else
              _of_film(summary, store.scene))
     question, headline, tone, sentences = found
-    yields, rims = _yielding(summary), list(rim_warnings.rims(store, summary))
+    yields, rims = _yielding(summary, store.scene), list(rim_warnings.rims(store, summary))
     stated = {"yield": yields, "rim": rims}  # before the other doubts
     warnings = [one for one in store.warnings if not stated.get(one.code)]
     at_rim = [f"{sentence_case(rim)}." for rim in rims]
@@ -261,7 +261,7 @@ def _cut(store):
     return (f"The passage ends at {store.cut:.2f} a, inside the contact; later moments are not part of these numbers.",)
 
 
-def _yielding(summary):
+def _yielding(summary, scene):
     """Warning that a body would yield; it comes first because it changes the meaning of the index."""
     found = summary.get("von_mises")
     if "fatigue" not in summary or not found or not found["yields"] or found["surface"] in steel_bodies(summary):
@@ -270,8 +270,11 @@ def _yielding(summary):
                "bodies.")
     if "run_in" in summary:
         elastic = "This body has no yield stress, so it is elastic here, while a real one would yield."
+    limit, name = found["yield_stress_Pa"], found["surface"]
+    body = getattr(scene, f"body_{name}")
+    doubt = yield_stress.doubt(limit, body, name)
     return (f"The von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place_text(found, 'µm')}, more than "
-            f"{yield_stress.words(found['yield_stress_Pa'])}. {elastic}",)
+            f"{yield_stress.words(limit, body)}. {f'{doubt[0].upper()}{doubt[1:]}.' if doubt else elastic}",)
 
 
 def _run_in(summary):

@@ -1,6 +1,9 @@
 """Stress at which a body yields, while the simulated bodies stay elastic."""
 
+import math
+
 HARDENED = 2.2e9  # Pa: a half-space that yields there keeps the 1e-4 of a ball's diameter that ISO 76 allows at 4.2 GPa
+STEELS = 185e9, 230e9  # Pa: Young's moduli of steels (hot work steels 190, 100Cr6 208, maraging and cold work steels to 225)
 UNDER_A_PEAK = 2.1  # p_max over the von Mises stress under an asperity (docs/decisions/11-yield.md); a ball has 1.6
 
 
@@ -9,12 +12,24 @@ def of(body):
     return body.yield_stress or HARDENED
 
 
-def words(limit):
-    """Text of a yield stress (Pa)."""
-    steel = " at which hardened bearing steel yields" if limit == HARDENED else ", its yield stress"
-    return f"{limit / 1e9:.3g} GPa{steel}"
+def is_known(body):
+    """Whether the yield stress of a body is given, or may be that of steel."""
+    return bool(body.yield_stress) or STEELS[0] <= body.E <= STEELS[1]
+
+
+def words(limit, body):
+    """Text of the yield stress (Pa) that a body is compared with."""
+    own = body.yield_stress or limit != HARDENED  # of a table
+    return f"{limit / 1e9:.3g} GPa{', its yield stress' if own else ' at which hardened bearing steel yields'}"
+
+
+def doubt(limit, body, name):
+    """Text why a body is not known to yield at the stress (Pa) that it is compared with, or ""."""
+    if limit != HARDENED or is_known(body):
+        return ""
+    return f"this body is no steel (E = {body.E / 1e9:.3g} GPa): set bodies.{name}.yield_stress"
 
 
 def pressure(scene):
-    """Pressure (Pa) at which the softer body begins to yield under an asperity, roughly."""
-    return UNDER_A_PEAK * min(of(scene.body_a), of(scene.body_b))
+    """Pressure (Pa) at which the softer body begins to yield under an asperity, roughly; inf where no yield stress is known."""
+    return UNDER_A_PEAK * min((of(body) for body in (scene.body_a, scene.body_b) if is_known(body)), default=math.inf)

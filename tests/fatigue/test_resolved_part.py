@@ -194,10 +194,10 @@ def test_a_cut_search_is_not_called_whole():
 def test_the_report_says_first_that_steel_would_yield():
     found = {"max_Pa": 2.9e9, "depth_m": 0.0, "surface": "a", "yield_stress_Pa": 2.2e9, "yields": True}
     summary = {"transient": {"p_max_Pa": 6.3e9}, "von_mises": found, "fatigue": {}}
-    said, = verdict._yielding(summary)
+    said, = verdict._yielding(summary, GEAR)
     assert "reaches 2.90 GPa at surface a" in said and said.endswith("the index is that of elastic bodies.")
-    assert verdict._yielding({**summary, "von_mises": {**found, "yields": False}}) == ()
-    assert verdict._yielding({key: part for key, part in summary.items() if key != "fatigue"}) == ()
+    assert verdict._yielding({**summary, "von_mises": {**found, "yields": False}}, GEAR) == ()
+    assert verdict._yielding({key: part for key, part in summary.items() if key != "fatigue"}, GEAR) == ()
 
 
 def test_the_report_says_which_moments_count():

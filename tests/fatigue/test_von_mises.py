@@ -17,6 +17,8 @@ from tehl_taichi.runs.summary.result_warnings import yielding
 from tehl_taichi.scene import yield_stress
 from tehl_taichi.scene.scales import Scales
 
+GEAR = tehl.scene("gear")
+
 NO_SHEAR = {"fatigue.shear": False, "thermal.on": False}
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
@@ -90,16 +92,36 @@ def said(yields, limit=2.2e9):
     """A summary whose body has 2.5 GPa, and what it is warned of."""
     mises = {"max_Pa": 2.5e9, "depth_m": 3.8e-6, "surface": "b", "yield_stress_Pa": limit, "yields": yields}
     summary = {"von_mises": mises, "transient": {"p_max_Pa": 5.3e9}, "fatigue": {}}
-    return summary, [str(sentence) for sentence in yielding(None, summary)]
+    return summary, [str(sentence) for sentence in yielding(SimpleNamespace(scene=GEAR), summary)]
 
 
 def test_warning_and_verdict_speak_by_it():
     summary, warned = said(True)
     assert "von Mises stress reaches 2.50 GPa 3.8 um below surface b, more than 2.2 GPa at which hardened" in warned[0]
-    assert "3.8 µm below surface b" in verdict._yielding(summary)[0]
+    assert "3.8 µm below surface b" in verdict._yielding(summary, GEAR)[0]
     assert "1.5 GPa, its yield stress" in said(True, 1.5e9)[1][0]
     summary, warned = said(False)
-    assert warned == [] and verdict._yielding(summary) == ()
+    assert warned == [] and verdict._yielding(summary, GEAR) == ()
+
+
+@pytest.mark.parametrize("own, limit, words", [
+    ({"E": 310e9}, 2.2e9, "2.2 GPa at which hardened bearing steel yields"), ({"E": 210e9, "yield_stress": 2.2e9}, 2.2e9, None),
+    ({"E": 310e9, "yield_stress": 2.2e9}, 2.2e9, None), ({"E": 310e9}, 1.5e9, None)])
+def test_only_steel_yields_where_hardened_steel_does(own, limit, words):
+    """A ceramic without a yield stress of its own (or of a table) is not known to yield."""
+    scene = GEAR.replace(**{f"bodies.b.{key}": value for key, value in own.items()})
+    summary = said(True, limit)[0]
+    texts = [str(next(yielding(SimpleNamespace(scene=scene), summary))), *verdict._yielding(summary, scene)]
+    doubt = "his body is no steel (E = 310 GPa): set bodies.b.yield_stress"
+    assert [doubt in text for text in texts] == [bool(words)] * 2
+    assert [(words or "its yield stress") in text for text in texts] == [True] * 2
+    assert ["real ones would yield" in text for text in texts] == [not words] * 2
+
+
+@pytest.mark.parametrize("E_a, E_b, known", [(310e9, 310e9, False), (310e9, 208e9, True), (208e9, 75e9, True)])
+def test_the_onset_under_asperities_is_that_of_the_bodies_whose_yield_stress_is_known(E_a, E_b, known):
+    scene = GEAR.replace(**{"bodies.a.E": E_a, "bodies.b.E": E_b})
+    assert yield_stress.pressure(scene) == (pytest.approx(2.1 * 2.2e9) if known else float("inf"))
 
 
 @pytest.mark.parametrize("limit, warned", [(0.0, False), (2.0e9, True)])

@@ -115,7 +115,7 @@ def test_that_steel_would_yield_is_said_once(tmp_path, search):
     from tehl_taichi.runs.summary.result_warnings import yielding
     from tehl_taichi.values.coded_warning import coded_warning
 
-    said = [*coded_warning({yielding: "yield"}, None, {"von_mises": YIELDED}), "another one"]
+    said = [*coded_warning({yielding: "yield"}, SimpleNamespace(scene=THERMAL), {"von_mises": YIELDED}), "another one"]
     made = made_results.run(tmp_path / "a.zarr", THERMAL, 14, search, said=said)  # up to 2.3 p_H
     text = page(made, tmp_path).text
     assert text.count("hardened bearing steel yields") == 1 and ("the von Mises stress reaches" in text) == (search is None)

@@ -153,7 +153,7 @@ def test_shares_of_rough_surfaces_are_per_cent_with_their_error():
 
 def test_what_yields_and_what_ran_in_is_told_with_its_own_numbers():
     mises = {"max_Pa": 2.41e9, "depth_m": 9e-5, "surface": "a", "yield_stress_Pa": 2.2e9, "yields": True}
-    said, = verdict._yielding({"fatigue": {}, "von_mises": mises})
+    said, = verdict._yielding({"fatigue": {}, "von_mises": mises}, scene("gear"))
     assert said.startswith("The von Mises stress reaches 2.41 GPa") and "more than" in said
     ran = {"passages": 3, "plastic_strain_max": 0.01, "height_before_m": 1.5e-6, "height_after_m": 1.2e-6,
            "surface_change_max_m": 3e-7, "residual_min_Pa": -4.1e8, "residual_max_Pa": 1.2e8}

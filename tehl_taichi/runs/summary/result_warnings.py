@@ -166,8 +166,10 @@ def yielding(store, summary):
     if found and found["surface"] in steel_bodies(summary):  # `running_in` speaks of these
         return
     if found and found["yields"]:
+        limit, name = found["yield_stress_Pa"], found["surface"]
+        body = getattr(store.scene, f"body_{name}")
         text = (f"the von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place_text(found)}, more than "
-                f"{yield_stress.words(found['yield_stress_Pa'])}; {elastic}")
+                f"{yield_stress.words(limit, body)}; {yield_stress.doubt(limit, body, name) or elastic}")
         yield with_data(text, von_mises_Pa=found["max_Pa"], yield_stress_Pa=found["yield_stress_Pa"])
     elif not found and "run_in" not in summary and p > (limit := yield_stress.pressure(store.scene)):
         text = f"p_max {p / 1e9:.2f} GPa: under asperities bodies like these yield above about {limit / 1e9:.1f} GPa; {elastic}"
