@@ -626,19 +626,19 @@ def flank(gear: "Name | GearPair" = "fzg-c", *, torque: float | None = None, spe
                  steady=steady, folder=folder, workers=workers, threads=threads, progress=progress)
 
 
-def bearing(what: "Name | RollingBearing", *, load: float | None = None, axial: float | None = None, speed: float | None = None,
-            dimensions: dict | None = None, on: str = "inner", feature: "Feature | None" = None, roughness: float | None = None,
-            scene: "Scene | Name | None" = None, changes: dict | None = None, steady: bool = False, run: bool = True,
-            folder: Name | None = None, workers: int | None = None, threads: int | None = None,
-            progress: "Progress | None" = None) -> "Bearing":
+def bearing(what: "Name | int | RollingBearing", *, load: float | None = None, axial: float | None = None,
+            speed: float | None = None, dimensions: dict | None = None, on: str = "inner", feature: "Feature | None" = None,
+            roughness: float | None = None, scene: "Scene | Name | None" = None, changes: dict | None = None,
+            steady: bool = False, run: bool = True, folder: Name | None = None, workers: int | None = None,
+            threads: int | None = None, progress: "Progress | None" = None) -> "Bearing":
     """Compute a rolling bearing: load of every element, contacts of the most loaded one with both rings, a run of each.
 
     Workers import the calling script: put its calls below `if __name__ == "__main__":`.
 
     Parameters
     ----------
-    what : str, path or RollingBearing
-        A designation ("6206"), a TOML file, or a RollingBearing.
+    what : str, int, path or RollingBearing
+        A designation ("6206" or 6206), a TOML file, or a RollingBearing.
     load, axial : float, optional
         Radial and axial load in N.
     speed : float, optional

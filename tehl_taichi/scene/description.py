@@ -52,11 +52,11 @@ from tehl_taichi.scene.speeds import of_surfaces
 from tehl_taichi.scene.surface.maps import map_warnings
 from tehl_taichi.scene.timeline import LATEST, moments, total_steps
 from tehl_taichi.scene.unit_texts import in_units
-from tehl_taichi.values.checks import build, file_name, nearest, number
+from tehl_taichi.values.checks import build, file_name, key_shown, nearest, number
 from tehl_taichi.values.coded_text import for_reader
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.digits import number_of
-from tehl_taichi.values.quantity import Text, known_keys
+from tehl_taichi.values.quantity import Text, kinds, known_keys
 from tehl_taichi.values.unit_hints import hint
 
 TOP = {"name": Text("name of the scene and its stores", 100),  # the keys above all tables
@@ -156,8 +156,7 @@ class Scene:
         """Check the type of every part; features become a tuple."""
         if isinstance(self.features, list):
             object.__setattr__(self, "features", tuple(self.features))
-        kinds = {**SECTIONS, "body_a": Body, "body_b": Body, "oil": Oil}
-        for key, kind in kinds.items():
+        for key, kind in {**SECTIONS, "body_a": Body, "body_b": Body, "oil": Oil}.items():
             if not isinstance(getattr(self, key), kind):
                 raise SceneError(f"{key} = {shown(getattr(self, key))} must be of the class {kind.__name__}")
         if not isinstance(self.features, tuple) or not all(isinstance(f, Feature) for f in self.features):
@@ -509,8 +508,12 @@ def _as_table(key, value):
 
 
 def _bodies(values):
-    if not isinstance(values, dict) or set(values) - {"a", "b"}:
+    if not isinstance(values, dict):
         raise SceneError(f"[bodies] may only hold the tables [bodies.a] and [bodies.b], not {shown(values)}")
+    for key in values.keys() - {"a", "b"}:
+        example = key if key in kinds(Body) else "E"
+        raise SceneError(f"unknown key {key_shown(f'bodies.{key}')}; each body has its own keys, as bodies.a.{example} and "
+                         f"bodies.b.{example}")
     return {f"body_{key}": build(Body, value, f"bodies.{key}", "bodies") for key, value in values.items()}
 
 

@@ -180,9 +180,10 @@ def normalise(part):
 
 def build(cls, values, section, general=None):
     """Return cls(**values); refuse unknown keys. Messages name `section` in place of the `general` name of cls."""
-    if not isinstance(values, dict):
-        raise SceneError(f"[{section}] must be a table of keys and values, not {shown(values)}")
     known = [f.name for f in dataclasses.fields(cls)]
+    if not isinstance(values, dict):
+        raise SceneError(f"[{section}] must be a table of keys and values, not {shown(values)}; set its keys, as "
+                         f"{section}.{known[0]} and {section}.{known[1]}")
     for key in values:
         if key not in known:
             raise SceneError(unknown_key(section, key, known))

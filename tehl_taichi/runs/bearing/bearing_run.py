@@ -51,7 +51,7 @@ class RingCase:
     grid: str = ""
 
 
-def bearing(what: str | PathLike | RollingBearing, *, load: float | None = None, axial: float | None = None,
+def bearing(what: str | int | PathLike | RollingBearing, *, load: float | None = None, axial: float | None = None,
             speed: float | None = None, dimensions: dict | None = None, on: str = "inner", feature: Feature | None = None,
             roughness: float | None = None, scene: Scene | str | PathLike | None = None,
             changes: dict | None = None, steady: bool = False, run: bool = True, folder: str | PathLike | None = None,

@@ -48,6 +48,7 @@ def bearing_source(what, given):
     if isinstance(what, RollingBearing):
         changed = dataclasses.replace(what, **_known(given))
         return BearingSource("bearing", changed, "given")
+    what = str(what) if isinstance(plain(what), int) else what  # 6206, the number of a designation
     path = path_of("bearing", what)
     if ending(path) == ".toml" or os.path.isfile(path) and not key_of(str(what)):
         return _from_file(path, given)

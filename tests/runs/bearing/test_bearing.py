@@ -324,9 +324,13 @@ def test_a_wrong_file_is_refused_in_a_sentence(tmp_path, text, said):
         bearing_source(file, {})
 
 
+def test_the_number_of_a_designation_may_be_a_number():
+    assert bearing_source(6206, {"load": 3e3}) == bearing_source("6206", {"load": 3e3})
+
+
 @pytest.mark.parametrize("options, said", [
     (dict(what="6207"), "'6207' are not in the table .*did you mean '620[356]'.*give its elements by dimensions: diameter"),
-    (dict(what=3), "bearing = 3 is not a path"),
+    (dict(what=3), "bearing '3' are not in the table"), (dict(what=3.5), "bearing = 3.5 is not a path"),
     (dict(on="left"), "on = 'left' is not known; allowed: inner, outer"),
     (dict(roughness=0.1), "roughness = 0.1 m is out of range"),
     (dict(changes={"srr": 0.1}), "operation.srr has no effect: dimensions, load and speed of the bearing set it"),
