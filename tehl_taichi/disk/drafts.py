@@ -64,7 +64,7 @@ class Draft:
         self.give_up()
 
     def _make(self):
-        self.made = _parents(self.path)
+        self.made = missing_above(self.path)
         _make_folders(self.path)
         clean(self.path.parent)
         self.lock = self._locked()
@@ -115,9 +115,7 @@ class Draft:
         put_back(self.path)  # Ctrl-C came between the renames
         if self.lock:
             remove(self.folder, self.lock)
-        for folder in self.made:
-            with contextlib.suppress(OSError):  # others use it
-                folder.rmdir()
+        remove_empty(self.made)
         if self.old:
             self.old.release()
 
@@ -196,9 +194,16 @@ def unfinished_error(path):
     return StoreError(f"{path} does not exist: its run ended before the first entry was stored; run it again")
 
 
-def _parents(path):
+def missing_above(path):
     """Missing folders above `path`, the innermost first."""
     return [folder for folder in path.absolute().parents if not os.path.exists(folder)]
+
+
+def remove_empty(folders):
+    """Remove folders in this order, so far as they are empty."""
+    for folder in folders:
+        with contextlib.suppress(OSError):  # others use it, or it was never made
+            folder.rmdir()
 
 
 def nearest(path):

@@ -85,7 +85,7 @@ def test_commands_on_a_full_disk(noise, small_disk, command):
     out = small_disk / ("a" if name in ("export", "plot") else "a.html" if name == "report" else "a.gif")
     done = process(name, noise, "--out", out, *more)
     assert done.returncode == 1 and "No space left on device" in done.stderr and "Traceback" not in done.stderr
-    assert not out.is_file() and not [path for path in small_disk.rglob("*") if path.name.startswith(".")]
+    assert not out.exists() and not [path for path in small_disk.rglob("*") if path.name.startswith(".")]
 
 
 @pytest.mark.parametrize("number, code", [(errno.ENOSPC, 1), (errno.EDQUOT, 1), (errno.EFBIG, 1), (errno.EIO, 1),
@@ -98,14 +98,37 @@ def test_a_full_disk_is_no_invalid_input(tmp_path, monkeypatch, number, code):
     def refuse(*_, **__):
         raise OSError(number, os.strerror(number))
 
+    def figures_in(folder):
+        with figure_style.folder_of_figures(folder):
+            pytest.fail("it was made")
+
     monkeypatch.setattr("pathlib.Path.mkdir", refuse)
-    for write in (lambda: user_files.text(tmp_path / "a.md", "text"), lambda: figure_style.make_folder(tmp_path / "a")):
+    for write in (lambda: user_files.text(tmp_path / "a.md", "text"), lambda: figures_in(tmp_path / "a")):
         with pytest.raises(StoreError, match=re.escape(os.strerror(number))) as found:
             write()
         assert found.value.exit_code == code
     with pytest.raises(StoreError) as found, files.disk_errors(tmp_path):
         refuse()
     assert found.value.exit_code == code
+
+
+@pytest.mark.parametrize("error, seen", [(OSError(errno.ENOSPC, "No space left on device"), StoreError),
+                                         (KeyboardInterrupt(), KeyboardInterrupt)])
+@pytest.mark.parametrize("made", [(), ("new",), ("new", "pics")])
+def test_figures_that_are_not_written_leave_no_new_folder(noise, tmp_path, monkeypatch, error, seen, made):
+    """Folders that were there stay."""
+    pytest.importorskip("matplotlib")
+    from matplotlib.figure import Figure
+
+    def full(*_, **__):
+        raise error
+
+    tmp_path.joinpath(*made).mkdir(parents=True, exist_ok=True)
+    before = sorted(tmp_path.rglob("*"))
+    monkeypatch.setattr(Figure, "savefig", full)
+    with pytest.raises(seen):
+        tehl.open(noise).save_figures(tmp_path / "new" / "pics", dpi=40)
+    assert sorted(tmp_path.rglob("*")) == before
 
 
 def test_a_result_that_is_there_stays(tmp_path, monkeypatch):

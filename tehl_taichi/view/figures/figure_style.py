@@ -1,5 +1,6 @@
 """Figure style: file format, resolution and width; sizes of text and lines follow from the width."""
 
+import contextlib
 import os
 import textwrap
 from dataclasses import dataclass, replace
@@ -9,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from tehl_taichi.disk import links, user_files
+from tehl_taichi.disk.drafts import missing_above, remove_empty
 from tehl_taichi.disk.files import reason, store_error
 from tehl_taichi.errors import SceneError, StoreError, extra
 from tehl_taichi.values.checks import choice, flag, integer
@@ -124,8 +126,8 @@ class FigureStyle:
     def write(self, folder, figures):
         """Write {name: function that draws the figure} into `folder`; returns the paths. Raises StoreError."""
         paths = self.check_all(folder, figures)
-        make_folder(folder)
-        return [self.save(draw, path) for draw, path in zip(figures.values(), paths)]
+        with folder_of_figures(folder):
+            return [self.save(draw, path) for draw, path in zip(figures.values(), paths)]
 
     def check_all(self, folder, names):
         """Paths of figures with these names in `folder`. Raises StoreError if they cannot be drawn or may not be written."""
@@ -223,10 +225,21 @@ def check_folder(folder):
         raise StoreError(f"cannot put figures into {folder}: {there} is not a folder; choose another one")
 
 
-def make_folder(folder):
-    """Make the folder if necessary; returns its path. Raises StoreError."""
+@contextlib.contextmanager
+def folder_of_figures(folder):
+    """Context manager: a folder, made if necessary; after an error in it a new one does not stay empty. Raises StoreError."""
+    folder = Path(folder)
+    new = missing_above(folder / "figure")
     try:
-        Path(folder).mkdir(parents=True, exist_ok=True)
+        _make_folder(folder)
+        yield
+    except BaseException:
+        remove_empty(new)
+        raise
+
+
+def _make_folder(folder):
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise store_error(error, f"cannot put figures into {folder}: {reason(error)}; --out takes a folder") from None
-    return Path(folder)

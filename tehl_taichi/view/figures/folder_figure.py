@@ -3,7 +3,7 @@
 import os
 
 from tehl_taichi.disk import links
-from tehl_taichi.view.figures.figure_style import import_matplotlib, make_folder
+from tehl_taichi.view.figures.figure_style import folder_of_figures, import_matplotlib
 
 
 def check(folder, page, name):
@@ -24,5 +24,5 @@ def write(folder, path, page, draw):
     if os.path.realpath(path.parent) == os.path.realpath(folder):
         links.refuse(path.parent)
     page.check(path, folder)
-    make_folder(path.parent)
-    return page.save(lambda: draw(page), path, of=folder)
+    with folder_of_figures(path.parent):
+        return page.save(lambda: draw(page), path, of=folder)
