@@ -40,8 +40,11 @@ def _stands(speed, operation):
 
 
 def reference_name(scene):
-    """Name of the surface with the first feature; without features a, or the moving one if a is at rest."""
-    return scene.features[0].surface if scene.features else "a" if scene.operation.u_a else "b"
+    """Name of the surface with the first feature, else a; of a steady contact the moving one if that is at rest."""
+    first = scene.features[0].surface if scene.features else NAMES[0]
+    if scene.transient or getattr(scene.operation, f"u_{first}"):
+        return first
+    return next(name for name in NAMES if name != first)
 
 
 def _pace(speeds, name, reference):

@@ -18,7 +18,7 @@ def step_cells(scene):
     The fastest feature moves time.courant; a whole fraction of that if the other surface is much faster and its temperatures or
     its stresses are computed.
     """
-    cells = scene.time.courant / max((s.pace for s in scene.surfaces if s.features), default=1.0)
+    cells = scene.time.courant / max((s.pace for s, _ in scene.passing), default=1.0)
     other = next(s for s in scene.surfaces if s.name != scene.reference.name)
     return cells / max(1, math.ceil(cells * other.pace / _most_cells(scene, other) - 1e-9))
 

@@ -148,6 +148,23 @@ def test_a_surface_at_rest_of_a_smooth_contact_has_its_steps(name, srr):
     assert 0 < timeline.step_length(rests) < 1 and isinstance(rests.warnings(), list)
 
 
+@pytest.mark.parametrize("srr, rests, other", [(-2.0, "a", "b"), (2.0, "b", "a")])
+@pytest.mark.parametrize("thermal", [True, False])
+def test_a_steady_contact_may_have_its_first_feature_on_a_surface_at_rest(srr, rests, other, thermal):
+    """Nothing passes, so the moving surface is the clock: with a feature on one surface or on both, in either order."""
+    def pair(surfaces):
+        both = scene("rough-pair")
+        return dataclasses.replace(both, features=tuple(dataclasses.replace(f, surface=one)
+                                                        for f, one in zip(both.features, surfaces)))
+
+    for surfaces in (rests, rests + other, other + rests):
+        still = pair(surfaces).replace(srr=srr, **{"time.steady_only": True, "thermal.on": thermal})
+        assert isinstance(still.warnings(), list) and 0 < timeline.step_length(still) < 1 and still.reference.name == other
+        assert still.path[0] < 0 < still.path[1] and timeline.total_steps(still) == 0
+    with pytest.raises(SceneError, match=f"leaves surface {rests}, which carries the feature, at 0 m/s"):
+        pair(rests).replace(srr=srr)
+
+
 def test_warnings_are_found_once_and_follow_the_keys_that_the_user_gave(monkeypatch):
     from tehl_taichi.scene import scene_warnings
 
