@@ -51,7 +51,7 @@ def with_chosen_ends(scene):
         return grid
     found = {"x_min": lambda s, film: -_inlet(scene, s, film),
              "x_max": lambda s, film: outlet(scene),
-             "y_max": lambda s, film: LINE_SIDE if s.line else _first(SIDES, lambda Y: side_gap(s, Y) / film, GAPS)}
+             "y_max": lambda s, film: LINE_SIDE if s.line else _side(s, film)}
     s, film = _scales_and_film(scene)
     return replace(grid, **{key: AutomaticValue(found[key](s, film)) for key in automatic})
 
@@ -79,6 +79,11 @@ def _inlet(scene, s, film):
     cold, thick = central_film(scene) / s.h, _thickest(scene) / s.h
     return next((end for end, gap in gaps.items() if 1 + gap / film >= _least(scene)
                  and left(scene, 1 + gap / thick) * ((1 + gap / cold) / INLET) ** -1.5 <= NOTED), INLETS[-1])
+
+
+def _side(s, film, least=GAPS):
+    """First side (b) of a point contact where the gap is `least` times the film."""
+    return _first(SIDES, lambda Y: side_gap(s, Y) / film, least)
 
 
 def _thickest(scene):
@@ -139,10 +144,12 @@ def _needed(key, ends, ratio, least, share):
 
 
 def remedy(scene, film):
-    """Ends {"x_min", "y_max"} (a, b) for which the error of the film (a^2/R') is at most LITTLE."""
-    s, power = Scales.of(scene), (LEFT[Scales.of(scene).kind] / LITTLE) ** (2 / 3)
-    inlet = {"x_min": -_first(INLETS, lambda X: inlet_gap(s, X) / film, max(_least(scene), INLET * power))}
-    return inlet if s.line else {**inlet, "y_max": _first(SIDES, lambda Y: side_gap(s, Y) / film, max(GAPS, SIDE * power))}
+    """Ends {"x_min", "y_max"} (a, b), none nearer than those of auto, with an error of the film (a^2/R') of at most LITTLE."""
+    s, usual = _scales_and_film(scene)
+    power = (LEFT[s.kind] / LITTLE) ** (2 / 3)
+    far = _first(INLETS, lambda X: inlet_gap(s, X) / film, max(_least(scene), INLET * power))
+    inlet = {"x_min": -max(far, _inlet(scene, s, usual))}
+    return inlet if s.line else {**inlet, "y_max": max(_side(s, film, max(GAPS, SIDE * power)), _side(s, usual))}
 
 
 def outlet(scene):

@@ -26,6 +26,18 @@ def test_far_beside_an_ellipse_the_gap_is_that_of_the_rigid_bodies(ratio):
     assert domain.side_gap(s, Y) == pytest.approx((Y * s.b) ** 2 / (2 * scene.contact.radius_y) / s.h, rel=0.02)
 
 
+@pytest.mark.parametrize("name", ["smooth-line", "mtm", "ball-bearing"])
+@pytest.mark.parametrize("thermal", [True, False])
+def test_advised_ends_are_at_least_those_of_auto(name, thermal):
+    """Also for a computed film that is thinner than that of the formula."""
+    for speed in (1.0, 20.0, 80.0):
+        scene = tehl.scene(name).replace(**{"speed": speed, "temperature": 60.0, "thermal.on": thermal})
+        film = heated_film(scene) / Scales.of(scene).h
+        for share in (0.3, 1.0, 2.0):
+            advised = domain.remedy(scene, share * film)
+            assert advised["x_min"] <= scene.grid.x_min and advised.get("y_max", scene.grid.y_max) >= scene.grid.y_max
+
+
 def error_by_formula(scene, gap):
     """Share of the film that an inlet leaves: part with the pressure at the border, of the loss of cold oil without it."""
     cold, heated = domain.central_film(scene), heated_film(scene)
