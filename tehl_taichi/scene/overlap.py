@@ -42,16 +42,6 @@ class Pass:
         """(centre, half the length) along y; infinite of a transverse feature."""
         return self.feature.y, self.feature.reach_y or math.inf
 
-    def meets(self, other):
-        """Whether both rectangles have points in common."""
-        pairs = (self.along, other.along), (self.across, other.across)
-        return all(min(a[1], b[1]) >= 0 and abs(a[0] - b[0]) <= a[1] + b[1] for a, b in pairs)
-
-    @property
-    def middle(self):
-        """Its `at` and y in the middle."""
-        return np.array([[self.along[0]]]), np.array([self.across[0]])
-
     def points(self):
         """Points (n, 1) of `at` and (m,) of y over the rectangle."""
         sides = (self.along, self.far / (abs(self.pace) or 1.0), ALONG), (self.across, self.far, ACROSS)
@@ -81,8 +71,9 @@ def _highest(passes, room=0.0):
     alone = max([0.0, *(one.feature.top for one in passes)])
     if _most(passes) <= max(room, alone):
         return alone
-    near = [[other for other in passes if one.meets(other)] for one in passes]
-    highest = max(alone, *(_sum(some, *one.middle) for one, some in zip(passes, near)))
+    met = _meetings(passes)
+    near = [[passes[n] for n in np.flatnonzero(row)] for row in met]
+    highest = max(alone, _in_the_middles(passes, met))
     for one, some in sorted(zip(passes, near), key=lambda pair: -_most(pair[1]))[:MOST]:
         if _most(some) > max(highest, room):
             highest = max(highest, _sum(some, *one.points()))
@@ -92,6 +83,24 @@ def _highest(passes, room=0.0):
 def _most(passes):
     """Height (m) that these passes do not exceed together."""
     return sum(one.feature.top for one in passes if one.feature.top > 0)
+
+
+def _meetings(passes):
+    """Mask (n, n): whether the rectangles of two passes have points in common."""
+    along, across = (_overlaps(*np.array(sides).T) for sides in zip(*((one.along, one.across) for one in passes)))
+    return along & across
+
+
+def _overlaps(centre, half):
+    """Mask (n, n): whether two intervals (centre, half the length, negative for none) have points in common."""
+    apart = np.abs(np.subtract.outer(centre, centre))
+    return (np.minimum.outer(half, half) >= 0) & (apart <= np.add.outer(half, half))
+
+
+def _in_the_middles(passes, met):
+    """Largest height (m) in the middle of a rectangle, of the passes that meet there."""
+    at, y = (np.array([side[0] for side in sides]) for sides in zip(*((one.along, one.across) for one in passes)))
+    return float(np.max(sum(np.where(mask, one.height(at, y), 0.0) for one, mask in zip(passes, met))))
 
 
 def _sum(passes, at, y):

@@ -41,6 +41,17 @@ def test_heights_together_are_the_largest_sum_while_they_pass(name, srr):
         assert overlap.highest_at(scene, X, 0.0) == pytest.approx(brute(scene, X), rel=0.02)
 
 
+def test_many_features_together_are_looked_at_a_few_at_a_time(monkeypatch):
+    """The middles of all at once, then the rectangles of MOST of them: 256 bumps over each other took seconds."""
+    called, own, draw = [], Feature.height_at, np.random.default_rng(1)
+    bumps = [replace(BUMP, x=x, y=y) for x, y in draw.uniform(-5e-5, 5e-5, (60, 2))]
+    monkeypatch.setattr(Feature, "height_at", lambda *one: called.append(1) or own(*one))
+    found = overlap.highest_on(bumps, 1e-4)
+    assert len(called) <= (overlap.MOST + 1) * len(bumps)
+    at, y = np.linspace(-1e-4, 1e-4, 401)[:, None], np.linspace(-1e-4, 1e-4, 401)
+    assert found == pytest.approx(overlap.height_at(bumps, at, y).max(), rel=1e-3)
+
+
 def test_with_slip_features_of_two_bodies_meet_at_one_place_only():
     """Both are at X = 0 together; at the end of the domain one is 0.5 a behind."""
     both = scene_of(PLACES["met in rolling"], srr=-0.4)
