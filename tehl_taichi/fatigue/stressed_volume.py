@@ -19,7 +19,8 @@ def part(passage, surface_f, alone):
     """Part "stressed" of a search's summary.
 
     surface_f: Findley stress (x', searched rows) Pa; alone: the :class:`tehl_taichi.fatigue.contact_alone.ContactAlone`.
-    Effective sizes: material with index 1 and the same risk.
+    Effective sizes: material with index 1 and the same risk. "per_metre": the searched part is one row, of a scene without
+    variation along y, and all sizes are per metre across.
     """
     m, depths = passage.scene.fatigue.weibull, np.append(0.0, depth_profile.ladder(passage))
     rows, limits = _rows(passage), np.array(passage.strength.limits(depths))[:, None]
@@ -29,8 +30,10 @@ def part(passage, surface_f, alone):
     volume, surface = (weight * over_area(values, passage.dx, y) for values in each)
     smooth = float(over_depth(alone.f[:, None] / limits, depths, m)[0]), max(float(alone.f[0] / limits[0, 0]), 0.0) ** m
     area = weight * over_area(np.ones_like(each[0]), passage.dx, y)
-    return {"exponent": m, "volume_m3": volume, "area_m2": surface, "track_depth_m": smooth[0], "track_share": smooth[1],
-            **_equal("track_equal_m2", volume, smooth[0], area), **_equal("track_equal_surface_m2", surface, smooth[1], area)}
+    across = {"per_metre": True} if y.size == 1 else {}
+    return {"exponent": m, **across, "volume_m3": volume, "area_m2": surface, "track_depth_m": smooth[0],
+            "track_share": smooth[1], **_equal("track_equal_m2", volume, smooth[0], area),
+            **_equal("track_equal_surface_m2", surface, smooth[1], area)}
 
 
 def _equal(name, whole, per_area, area):

@@ -53,6 +53,19 @@ def test_a_passage_without_a_peak_weighs_nothing(taichi_cpu, rows):
     assert found["area_m2"] == pytest.approx(found["track_share"] * length * width, rel=0.1)
 
 
+@pytest.mark.parametrize("rows", [1, 5])
+def test_sizes_of_a_scene_without_variation_across_are_per_metre(taichi_cpu, rows):
+    """Where lengths and fatigue.length are twice as large they are twice squared then, not twice cubed: the words say so."""
+    scene = tehl.scene("furrow-line" if rows == 1 else "gear").replace(**WEIBULL, **{"fatigue.reference_area": 1e-6})
+    large = scene.replace(**{"contact.radius_x": 2 * scene.contact.radius_x, "contact.load": 2 * scene.contact.load,
+                             **{f"feature.{key}": 2 * getattr(scene.features[0], key) for key in ("height", "width")}})
+    one, two = (assessment.run(each, Rolling(each, 8, rows)).summary for each in (scene, large))
+    power = 2 if rows == 1 else 3
+    assert two["stressed"]["volume_m3"] == pytest.approx(2**power * one["stressed"]["volume_m3"], rel=1e-3)
+    said = [what for what, _ in summary_rows.fatigue_rows(one) if "of smooth track" in what or "probability" in what]
+    assert len(said) == 3 and all(("per metre across" in what) == (rows == 1) for what in said)
+
+
 def test_a_peak_weighs_more_the_larger_the_exponent(taichi_cpu):
     """Its index is larger than that of the track, in less material."""
     equal = []

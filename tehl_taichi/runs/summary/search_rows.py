@@ -93,9 +93,10 @@ def _stressed_rows(f):
                                                     ("track_equal_surface_m2", "at the surface")) if key in found]
     chances = [(found[key], where) for key, where in (("failure_volume", "below the surface"),
                                                       ("failure_surface", "at the surface")) if key in found]
-    weighs = "area of smooth track with the risk of the feature"
+    across = ", per metre across" * found.get("per_metre", False)
+    weighs, crack = f"area of smooth track with the risk of the feature{across}", f"probability of a crack{across},"
     return [*(SummaryRow(f"{weighs}, {where}", f"{area * 1e6:.3g} mm2", area) for area, where in areas),
-            *(SummaryRow(f"probability of a crack {where}", f"{chance:.2g}", chance) for chance, where in chances)]
+            *(SummaryRow(f"{crack} {where}", f"{chance:.2g}", chance) for chance, where in chances)]
 
 
 def nearest_to_yield(searches):
