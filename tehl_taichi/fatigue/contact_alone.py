@@ -40,7 +40,7 @@ def search(scene, reader, surface):
         peaks += [profile.mises for profile in profiles]
         point = max((profile.worst for profile in profiles), key=lambda one: (one.compared, one.depth))
         if (point.compared, point.depth) > (worst, 0.0):
-            worst, depth, local = point.f, point.depth, point.local
+            worst, depth, local = float(point.f), point.depth, point.local
     return ContactAlone({"Fi_max": worst / local.endurance, "findley_stress_max_Pa": worst, "depth_m": depth,
                          "surface_Fi_max": float(at_surface[top]) / strength.surface_limit,
                          "shear_counted": scene.fatigue.shear, "residual_counted": strength.has_residual,

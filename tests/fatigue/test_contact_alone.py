@@ -67,6 +67,19 @@ def test_the_feature_the_moments_and_the_listed_depths_have_no_part_in_it():
     assert (at_top["depth_m"], at_top["Fi_max"]) == (0.0, first["surface_Fi_max"])
 
 
+def types_of(values):
+    """The types of all numbers in a summary."""
+    return {kind for one in values.values() for kind in (types_of(one) if isinstance(one, dict) else {type(one)})}
+
+
+@pytest.mark.parametrize("table", ["", "case-hardened"])
+def test_numbers_are_those_of_python(table):
+    """As in summaries that are read from a store: print(summary) shows 1.2, not np.float64(1.2)."""
+    scene = tehl.scene("smooth-line").replace(**{"thermal.on": False, "fatigue.table": table, "fatigue.depths": "auto"})
+    found = contact_alone.search(scene, Dry(scene, shear=0.05), scene.surfaces[0]).summary
+    assert found["depth_m"] > 0 and types_of(found) <= {float, int, bool, str}
+
+
 class Lobed(Dry):
     """A dry circle with a lobe of shear beside its axis, 0.1 b wide, `at` b from it."""
 
