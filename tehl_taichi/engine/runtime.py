@@ -228,20 +228,13 @@ def alone(work):
     Starting a loop on Taichi's threads takes 20 us immediately after another one, 50 to 100 us after other work; a copy takes
     30 ns per vector.
     """
-    return not (by_phases() or by_cells()) and (ensure()["threads"] == 1 or _grown * work < WORTH_THREADS)
-
-
-def by_phases():
-    """Whether each phase of jobs is a separate launch with one job per thread, as on a graphics card, whose threads may not run
-    at once and so must not wait for each other.
-    """
-    return ensure()["arch"] != "cpu"
+    return not by_cells() and (ensure()["threads"] == 1 or _grown * work < WORTH_THREADS)
 
 
 def by_cells():
-    """Whether jobs are cells (:mod:`tehl_taichi.pressure.cells`), not rows: on a graphics card, unless the environment variable
-    TEHL_CELLS is 0, and on the cores where it is 1."""
-    return os.environ.get("TEHL_CELLS", "1" if by_phases() else "0") == "1"
+    """Whether jobs are cells (:mod:`tehl_taichi.pressure.cells`), not rows: on a graphics card, whose threads must not wait for
+    each other, and on the cores if the environment variable TEHL_CELLS is 1."""
+    return ensure()["arch"] != "cpu" or os.environ.get("TEHL_CELLS") == "1"
 
 
 @contextlib.contextmanager

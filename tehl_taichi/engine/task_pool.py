@@ -73,19 +73,8 @@ def crowding():
 
 
 def team_size(jobs):
-    """Number of workers for phases of at most `jobs` jobs: at most the threads of the engine; on a graphics card one per
-    job.
-    """
-    if runtime.by_phases():
-        return jobs
+    """Number of workers for phases of at most `jobs` jobs: at most the threads of the engine."""
     return max(1, min(jobs, runtime.ensure()["threads"], cores.available()))
-
-
-def kernel_of(workers, one_phase):
-    """The kernel `workers`; on a graphics card `one_phase`, with one job per thread, which leaves the next phase in TICKET
-    (negative: none). Both take the same arguments.
-    """
-    return one_phase if runtime.by_phases() else workers
 
 
 class Team:
@@ -103,18 +92,6 @@ class Team:
         """Launch from `phase` on. After a launch that a worker has left, the next launches have one worker, more of them each
         time.
         """
-        if runtime.by_phases():
-            self._one_by_one(launch, phase)
-        else:
-            self._together(launch, phase)
-
-    def _one_by_one(self, launch, phase):
-        """Launch phase by phase: each launch does the phase in TICKET and leaves the next one there, if any."""
-        self.sync[TICKET] = phase
-        while self.sync[TICKET] >= 0:
-            launch()
-
-    def _together(self, launch, phase):
         self.sync[[TICKET, DONE, LEFT]] = phase << JOB_BITS, 0, 0
         self.sync[COUNT] = 1 if self.alone else self.size
         launch()

@@ -112,17 +112,6 @@ def bend(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C: Numb
                 ticket = task_pool.take(sync)
 
 
-@ti.kernel
-def one_phase(S: ti.template(), Y: ti.template(), T: ti.template(), G: Table, C: Numbers, Q: Passes, odd: ti.template(),
-              H0: Flat, sync: task_pool.Sync, alone: ti.template()):
-    """Do the phase of `sync`, one job per thread, and set the next one."""
-    ti.loop_config(block_dim=1)
-    for j in range(C[0, GROUPS if sync[task_pool.TICKET] == ACROSS else PAIRS]):
-        work(S, Y, T, G, C, Q, odd, ti.cast(sync[task_pool.TICKET], ti.i32), j, j, H0[0])
-    for _ in range(1):
-        sync[task_pool.TICKET] = -1 if sync[task_pool.TICKET] == BACK else sync[task_pool.TICKET] + 1
-
-
 class Bending:
     """Computes the film of `levels` (see :class:`Levels`)."""
 
@@ -135,8 +124,8 @@ class Bending:
         self.table, self.passes = layout.table, layout.lengths.table()
         convolution.prepare(self.table, [convolution.deflection(shape, levels)], (Y, T), layout.lengths, np.dtype(float))
         odd = odd_radices(layout.lengths, largest.lengths)
-        self.launch = bind(task_pool.kernel_of(bend, one_phase), levels.S, Y, T, levels.G, self.table, self.passes, odd,
-                           self.H0, self.team.sync, runtime.ensure()["threads"] == 1)
+        self.launch = bind(bend, levels.S, Y, T, levels.G, self.table, self.passes, odd, self.H0, self.team.sync,
+                           runtime.ensure()["threads"] == 1)
 
     @staticmethod
     def _layout(nx, ny):

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from tehl_taichi.engine import runtime
+from tehl_taichi.errors import SceneError
 from tehl_taichi.pressure import balances, fields, reynolds
 from tehl_taichi.pressure.equations import Equations
 from tehl_taichi.pressure.inlet import Inlet
@@ -55,8 +56,12 @@ class SolveReport:
 
 
 def pressure_solver(levels, film, most_rises=np.inf, carries_load=True):
-    """The :class:`PressureSolver` of this machine: with jobs that are rows, or cells."""
-    if runtime.by_cells() and levels.scene.numerics.sweep != red_black.SWEEP:
+    """The :class:`PressureSolver` of this machine: with jobs that are rows, or cells. Raises SceneError for an order of lines
+    that only rows have."""
+    if runtime.by_cells():
+        if levels.scene.numerics.sweep == red_black.SWEEP:
+            raise SceneError(f"numerics.sweep = {red_black.SWEEP!r} needs TEHL_ARCH=cpu without TEHL_CELLS; allowed here: "
+                             "jacobi")
         from tehl_taichi.pressure.cells.newton import CellNewton
 
         return CellNewton(levels, film, most_rises, carries_load)

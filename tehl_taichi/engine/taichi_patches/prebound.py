@@ -22,16 +22,16 @@ def bind(kernel, *args, writes=None):
     started = time.perf_counter()
     try:
         with _uncollected():
-            launch = _elsewhere(kernel, args, writes) if runtime.by_cells() or runtime.by_phases() else _recorded(kernel, args)
+            launch = _of_cells(kernel, args, writes) if runtime.by_cells() else _recorded(kernel, args)
     except (AttributeError, TypeError):
         launch = functools.partial(kernel, *args)
     _binding += time.perf_counter() - started
     return launch if _watched is None else _timed(kernel, args, launch)
 
 
-def _elsewhere(kernel, args, writes):
-    """A launch on a graphics card."""
-    if writes is None or not runtime.by_cells():
+def _of_cells(kernel, args, writes):
+    """A launch where jobs are cells."""
+    if writes is None:
         return functools.partial(kernel, *args)
     from tehl_taichi.engine import resident
 

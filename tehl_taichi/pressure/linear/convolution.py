@@ -63,7 +63,7 @@ def transform_sizes(sizes, lines):
 class Layout:
     """Table of the convolutions, with their places in the fields Y (spectra, symbols, buffers) and T (twiddle factors).
 
-    shapes: see :func:`transform_sizes`. Attributes: `y`, `t`: sizes of Y and T. Every worker, or job, has its own buffers.
+    shapes: see :func:`transform_sizes`. Attributes: `y`, `t`: sizes of Y and T. Every worker has its own buffers.
     """
 
     def __init__(self, shapes):

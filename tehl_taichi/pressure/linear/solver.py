@@ -68,20 +68,6 @@ def linear_solve(memory: ti.template(), G: Table, C: Numbers, Q: Passes, todo: N
                 ticket = task_pool.take(sync)
 
 
-@ti.kernel
-def one_phase(memory: ti.template(), G: Table, C: Numbers, Q: Passes, todo: Numbers, jobs: Numbers, N: Table,
-              partial: Table, sync: task_pool.Sync, most: ti.i32, right: LinearFlat, outflow: LinearFlat, out: LinearFlat,
-              alone: ti.template()):
-    """Run the phase in `sync`, one job per thread, and decide which phase follows."""
-    ti.loop_config(block_dim=1)
-    for j in range(todo[ti.cast(sync[task_pool.TICKET], ti.i32), JOBS]):
-        q = todo[ti.cast(sync[task_pool.TICKET], ti.i32), FIRST_JOB] + j
-        operations.work(memory, G, C, Q, N, partial, jobs[q, 0], jobs[q, 1], jobs[q, 2], j, most, right, outflow, out)
-    for _ in range(1):
-        n = ti.cast(sync[task_pool.TICKET], ti.i32)
-        sync[task_pool.TICKET] = gmres.decide(N, partial, todo, n, todo[n, DECISION], most)
-
-
 class Krylov:
     """FGMRES for the linearised problem in the tables of `levels` (:class:`tehl_taichi.pressure.levels.Levels`).
 
@@ -133,8 +119,7 @@ class Krylov:
         self.dense = np.zeros((dense_entries(v.sizes, v.dense), simd.W), v.linear)
         self._fill_dense = bind(simd.fill, *simd.one_of(self.memory.filled, self.memory.D), 0, 0, self.dense)
         self.partial = np.zeros((v.fine, gmres.DOT_SUM + self.most + operations.AT_ONCE))
-        kernel = task_pool.kernel_of(linear_solve, one_phase)
-        self._launch = bind(kernel, self.memory, v.G, self.layout.table, self.layout.lengths.table(), p.phases, p.jobs,
+        self._launch = bind(linear_solve, self.memory, v.G, self.layout.table, self.layout.lengths.table(), p.phases, p.jobs,
                             self.numbers, self.partial, self.team.sync, self.most, self.right, self.outflow, self.out,
                             runtime.ensure()["threads"] == 1)
 

@@ -1,11 +1,13 @@
 """Lines of the finest level in two colours: the second one has what the first one, and coarser levels, leave."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from pressure.linear.test_solver import pressed
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.scene import scene
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
@@ -79,3 +81,12 @@ def test_they_settle_in_the_same_state():
     one, other = (shot.fields["pressure"] for shot in shots)
     np.testing.assert_allclose(one, other, atol=1e-4 * one.max())
     assert shots[0].scalars["cycles"] != shots[1].scalars["cycles"]
+
+
+def test_cells_have_no_second_colour(monkeypatch):
+    from tehl_taichi.pressure.newton import pressure_solver
+
+    monkeypatch.setenv("TEHL_CELLS", "1")
+    levels = SimpleNamespace(scene=scene("gear").replace(**{"numerics.sweep": "red-black"}))
+    with pytest.raises(SceneError, match="red-black.*allowed here: jacobi"):
+        pressure_solver(levels, None)
