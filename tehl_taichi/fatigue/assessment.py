@@ -7,7 +7,6 @@ import numpy as np
 
 from tehl_taichi.fatigue import (
     contact_alone,
-    depth_search,
     every_moment,
     index_statistics,
     local_strength,
@@ -114,13 +113,10 @@ def _of_surface(scene, passage, centres, progress, until, alone, averages):
         f = scene.fatigue
         raise SceneError(f"no stored moment has the feature between fatigue.from_x = {f.from_x:g} a and to_x = {f.to_x:g} a; "
                          f"it moves from {centres[0] / passage.a:.2f} to {centres[-1] / passage.a:.2f} a")
-    early, in_depth = _early(passage, until), bool(scene.fatigue.depths)
+    early = _early(passage, until)
     progress = PassProgress.of(progress, scene, passage, early)
-    layers = [layer(scene, passage, 0.0, progress, early, averages)]
-    layers += [layer(scene, passage, depth, progress, early) for depth in scene.fatigue.listed]
-    deep = depth_search.search(scene, passage, layers, early, progress) if in_depth else depth_search.DepthResult()
-    progress.end()
-    layers, deep = every_moment.followed(scene, passage, layers, deep)
+    top = layer(scene, passage, 0.0, progress, early, averages)
+    layers, deep = every_moment.searched(scene, passage, top, early, progress)
     smooth = contact_alone.search(scene, passage.reader, passage.surface) if alone else None
     result = _result(scene, passage, layers, deep, smooth)
     if stressed := _stressed(scene, passage, layers[0], smooth):
@@ -162,13 +158,13 @@ def _result(scene, passage, layers, below, alone):
     summary["von_mises"] = von_mises.summary(peaks, surface.mises.value, passage.surface, passage.strength)
     if points := [found.worst for found in layers[1:]] + below.worst:
         point = worst_of(points)
-        summary["below"] = {"depth_m": point.depth, **point.summary(), **local_strength.of_point(passage, point),
-                            **_cycles(point, point.local), **_depth_numbers(passage, below, counts)}
+        summary["below"] = {**local_strength.summary(passage, point), **_cycles(point, point.local),
+                            **_depth_numbers(passage, below, counts)}
         arrays |= {"worst_below": point.history(centres), **_depth_arrays(passage, layers, below, alone)}
     if len(layers) > 1:
         summary["by_depth"] = [{"depth_m": layer.depth, "findley_stress_max_Pa": float(layer.f.max()),
                                 "sigma1_max_Pa": float(layer.sigma1.max())} for layer in layers]
-        arrays |= result_arrays.of_layers(layers)
+        arrays |= result_arrays.of_layers(layers, passage.strength)
     return SearchResult(summary, **arrays)
 
 
@@ -195,8 +191,7 @@ def _depth_numbers(passage, below, counts):
     if not below.profiles:
         return {}
     depths = below.profiles[0].depths
-    some = passage.sought is Sought.WORST or passage.boxed  # statistics need all points
-    statistics = {} if some else {"statistics": _statistics_below(below, counts, passage)}
+    statistics = {"statistics": _statistics_below(below, counts, passage)} if index_statistics.has_below(passage) else {}
     return {"searched_m": [float(depths[0]), float(depths[-1])], **statistics}
 
 
@@ -206,8 +201,7 @@ def _depth_arrays(passage, layers, below, alone):
         return {}
     return {**result_arrays.of_profiles(layers[0].f, passage, below.profiles, len(layers) > 1),
             **({"findley_stress_contact_alone": alone.f} if alone else {}),
-            **(result_arrays.of_plane(below.plane) if below.plane else {}),
-            **result_arrays.of_limits(passage.strength, below.profiles[0].depths, below.plane, layers)}
+            **(result_arrays.of_plane(below.plane, passage.strength) if below.plane else {})}
 
 
 def _statistics(layer, counts, limit):

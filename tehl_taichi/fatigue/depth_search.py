@@ -7,12 +7,11 @@ is not always that of the surface: of a scanned bump between two rows of 128x32 
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from tehl_taichi.fatigue import candidate_rows, depth_profile, exact_depths, index_statistics
 from tehl_taichi.fatigue.layer import EarlyLayer, Layer, early_layer, layer
 from tehl_taichi.fatigue.stress.averaging import has_window
 from tehl_taichi.fatigue.worst_point import worst_of
+from tehl_taichi.values.arrays import nearest_index
 
 # rows of a window are alike if they lie within this share of a feature's half width and their largest stresses at the surface
 # within EXCESS. Below eight such rows (asperity of the gear, SRR +0.12 and -0.12, 256x64 cells) the largest stress is 0.03 to
@@ -63,7 +62,7 @@ def search(scene, passage, layers, early, progress):
     if not passes(passage):
         return DepthResult(profiles, before)
     plane, sooner = _planes(scene, passage, profiles, before, early, progress)
-    places = _worst(plane) + ([sooner.worst.y] if sooner else [])
+    places = [one.worst.y for one in (plane, plane.early, sooner) if one]
     more = [row for row in _rows(passage, places) if row not in rows]
     others, earlier = _under(passage, more, early, progress) if more else ([], [])
     return DepthResult(profiles + others, before + earlier, plane, sooner)
@@ -113,14 +112,9 @@ def passes(passage, early=None):
     return each * len(passage.row_blocks()) + 3 if passage.reader.y[0] < 0 else 0
 
 
-def _worst(found):
-    """Positions y of the worst points of a layer."""
-    return [one.worst.y for one in (found, found.early) if one]
-
-
 def _rows(passage, places):
     """Rows nearest to these positions y, each once."""
-    return list(dict.fromkeys(int(np.argmin(np.abs(passage.reader.y - at))) for at in places))
+    return list(dict.fromkeys(nearest_index(passage.reader.y, at) for at in places))
 
 
 def _under(passage, rows, early, progress):

@@ -13,15 +13,30 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl_taichi.fatigue import findley
+from tehl_taichi.fatigue import depth_search, findley
+from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.sought import Box
+from tehl_taichi.fatigue.stress import held_heat
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import worst_of
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.values.interpolation import lagrange
 
 SAME = 1e-12  # m: moments whose features are closer to each other are one
 POINTS = 4  # moments of the run that a polynomial uses
+
+
+def searched(scene, passage, top, early, progress):
+    """(layers, DepthResult) of a search whose :class:`tehl_taichi.fatigue.layer.Layer` `top` at the surface is known: at the
+    listed depths and at the worst one, as :func:`followed` returns them.
+
+    early: numbers of the moments that are also searched alone, or None; progress: a PassProgress, which ends here.
+    """
+    layers = [top, *(layer(scene, passage, depth, progress, early) for depth in scene.fatigue.listed)]
+    deep = depth_search.search(scene, passage, layers, early, progress) if scene.fatigue.depths else depth_search.DepthResult()
+    progress.end()
+    return followed(scene, passage, layers, deep)
 
 
 def followed(scene, passage, layers, deep):
@@ -60,7 +75,7 @@ def _raised(layer, passage, points):
     """The layer with the worst of `points` (WorstPoints by all moments), and with their values f (Pa)."""
     f = layer.f.copy()
     for point in points:
-        place = int(np.argmin(np.abs(passage.x - point.x))), int(np.argmin(np.abs(passage.y - point.y)))
+        place = nearest_index(passage.x, point.x), nearest_index(passage.y, point.y)
         f[place] = max(f[place], point.f)
     return replace(layer, f=f, worst=worst_of(points), close=[])
 
@@ -84,17 +99,14 @@ def _histories(scene, loads, points):
     depths, rows = sorted({point.depth for point in points}), sorted({_row(loads, point) for point in points})
     found = dict(zip(rows, histories_of(loads, depths, [(row, False) for row in rows])))
     if scene.has_thermal_stress and not depths[0]:
-        from tehl_taichi.fatigue.stress import held_heat
-
         for row, held in held_heat.histories(loads, rows).items():
             found[row][0] += held
-    return [found[_row(loads, point)][depths.index(point.depth), int(np.argmin(np.abs(loads.x - point.x)))]
-            for point in points]
+    return [found[_row(loads, point)][depths.index(point.depth), nearest_index(loads.x, point.x)] for point in points]
 
 
 def _row(loads, point):
     """Number of the row of a point."""
-    return int(np.argmin(np.abs(loads.reader.y - point.y)))
+    return nearest_index(loads.reader.y, point.y)
 
 
 def _of_loads(scene, passage, start):

@@ -8,6 +8,7 @@ from tehl_taichi.fatigue import sampled_rows
 from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.averaging import is_mirrored
 from tehl_taichi.scene.rough_surfaces import is_rough
+from tehl_taichi.values.arrays import nearest_index
 
 QUANTILES = {"median": 0.5, "p90": 0.9, "p99": 0.99}
 NUMBERS = ("share_above_1", *QUANTILES)
@@ -75,16 +76,21 @@ def depths(passage, rungs):
     return [share * passage.a for share in DEPTHS if rungs[0] <= share * passage.a <= rungs[-1]]
 
 
+def has_below(passage):
+    """Whether a search has statistics below the surface, which need all points."""
+    return passage.sought is not Sought.WORST and not passage.boxed
+
+
 def points_below(passage):
     """{number of a row of the reader: mask of its points that count} of the rows in the middle of the features; {} where no
     statistics are wanted, or those of rows that are spread over a rough surface.
 
     Other rows are searched by what is worst in them, which depends on rounding.
     """
-    if passage.sought is Sought.WORST or passage.boxed or passage.y.size > 1 and is_rough(passage.scene):
+    if not has_below(passage) or passage.y.size > 1 and is_rough(passage.scene):
         return {}
     counts = weights(passage)
-    middle = dict.fromkeys(_row(passage, f.centre_y) for f in passage.scene.features)
+    middle = dict.fromkeys(nearest_index(passage.y, f.centre_y) for f in passage.scene.features)
     return {passage.rows.start + row: counts[:, row] > 0 for row in middle if counts[:, row].any()}
 
 
@@ -98,7 +104,7 @@ def below(passage, profiles, counts):
     rungs = profiles[0].depths
     at = depths(passage, rungs)
     own = [one for one in profiles if one.counted is not None]
-    rows, Fi, each = _of_profiles(passage, own, at, counts) if own else _of_spread_rows(passage, at, counts)
+    rows, Fi, each = _of_profiles(passage, own, at, counts) if own else sampled_rows.indices(passage, at, counts)
     out = [{"depth_m": depth, **statistics(of_depth, each)} for depth, of_depth in zip(at, Fi)]
     seen = [one for one in out if one["depth_m"] >= SEEN * rungs[0]]
     return {**max(seen or out, key=lambda one: one["p99"]), "rows": rows, "by_depth": out}
@@ -107,16 +113,6 @@ def below(passage, profiles, counts):
 def _of_profiles(passage, profiles, depths, counts):
     """(number of rows, indices (depths, points), weights (points,)) of the points of these profiles that count."""
     limits = np.array([passage.strength.at(depth).endurance for depth in depths])[:, None]
-    each = [counts[:, _row(passage, one.worst.y)] for one in profiles]
+    each = [counts[:, nearest_index(passage.y, one.worst.y)] for one in profiles]
     return len(profiles), np.concatenate([one.counted for one in profiles], axis=1) / limits, np.concatenate(
         [of_row[of_row > 0] for of_row in each])
-
-
-def _of_spread_rows(passage, depths, counts):
-    """Return what :func:`_of_profiles` does, of rows spread evenly over those with points that count."""
-    rows = sampled_rows.spread(counts)
-    return rows.size, *sampled_rows.indices(passage, rows, depths, counts)
-
-
-def _row(passage, y):
-    return int(np.argmin(np.abs(passage.y - y)))

@@ -6,8 +6,7 @@ finer grid, the averaged one converges (docs/decisions/10-material-length.md).
 
 import numpy as np
 
-from tehl_taichi.fatigue import depth_search, every_moment, local_strength
-from tehl_taichi.fatigue.layer import layer
+from tehl_taichi.fatigue import every_moment, local_strength
 from tehl_taichi.fatigue.pass_progress import PassProgress
 from tehl_taichi.fatigue.sought import Sought
 from tehl_taichi.fatigue.stress.averaging import averaged_reader
@@ -32,10 +31,7 @@ def part(points, top, centres, box, progress):
     passage = StressHistories(scene, averages, np.asarray(centres), surface=points.surface, box=box, sought=Sought.WORST)
     passage.steel = False
     progress = PassProgress.of(progress, scene, passage)
-    layers = [top, *(layer(scene, passage, depth, progress, None) for depth in scene.fatigue.listed)]
-    deep = depth_search.search(scene, passage, layers, None, progress) if scene.fatigue.depths else depth_search.DepthResult()
-    progress.end()
-    layers, deep = every_moment.followed(scene, passage, layers, deep)
+    layers, deep = every_moment.searched(scene, passage, top, None, progress)
     below = worst_of([found.worst for found in layers[1:]] + deep.worst)
-    deepest = {"depth_m": below.depth, **below.summary(), **local_strength.of_point(passage, below)} if below else {}
-    return {"length_m": scene.fatigue.length, **layers[0].worst.summary(), **({"below": deepest} if below else {})}
+    return {"length_m": scene.fatigue.length, **layers[0].worst.summary(),
+            **({"below": local_strength.summary(passage, below)} if below else {})}

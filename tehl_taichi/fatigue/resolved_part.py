@@ -17,7 +17,7 @@ def part(passage, early, until, layers, deep):
     arrays = {"Fi": top.f / limit, "worst": top.worst.history(centres), **_below(passage, layers, deep)}
     if points:
         worst = worst_of(points)
-        summary["below"] = {"depth_m": worst.depth, **worst.summary(), **local_strength.of_point(passage, worst)}
+        summary["below"] = local_strength.summary(passage, worst)
         arrays["worst_below"] = worst.history(centres)
     return SearchResult(summary, **arrays)
 
@@ -28,7 +28,7 @@ def _below(passage, layers, deep):
     if deep.before:
         arrays["findley_stress_under_row"] = result_arrays.under_row(layers[0].early.f, passage, deep.before)
     if deep.early_plane:
-        arrays |= result_arrays.of_plane(deep.early_plane) | result_arrays.of_limit(passage.strength, deep.early_plane)
+        arrays |= result_arrays.of_plane(deep.early_plane, passage.strength)
     if len(layers) > 1:
         arrays["findley_stress_at_depth"] = result_arrays.at_depths([found.early for found in layers])
     return arrays

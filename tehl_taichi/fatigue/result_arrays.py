@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tehl_taichi.fatigue import local_strength
+from tehl_taichi.values.arrays import nearest_index
 
 
 def of_surface(surface, passage, limit, counts):
@@ -13,34 +13,21 @@ def of_surface(surface, passage, limit, counts):
             "passed": counts}
 
 
-def of_plane(plane):
+def of_plane(plane, strength):
     """Arrays of the subsurface plane that was searched at all points."""
-    return {"worst_depth": np.array([plane.depth]), "findley_stress_at_worst_depth": plane.f}
+    return {"worst_depth": np.array([plane.depth]), "findley_stress_at_worst_depth": plane.f,
+            "limit_at_worst_depth": limits(strength, [plane.depth])}
 
 
-def of_layers(layers):
+def of_layers(layers, strength):
     """Arrays of all points at every listed depth."""
-    return {"fatigue_depth": np.array([layer.depth for layer in layers]),
-            "findley_stress_at_depth": at_depths(layers)}
+    depths = np.array([layer.depth for layer in layers])
+    return {"fatigue_depth": depths, "findley_stress_at_depth": at_depths(layers), "limit_at_depth": limits(strength, depths)}
 
 
-def of_limits(strength, depths, plane, layers):
-    """Fatigue limits at the depths of the stresses: below rows (the surface, then depths in m), of the plane (or None), of
-    listed layers; {} without a table.
-    """
-    if strength.table is None:
-        return {}
-    found = {"limit_under_row": local_strength.limits(strength, [0.0, *depths])}
-    found |= of_limit(strength, plane) if plane else {}
-    if len(layers) > 1:
-        found["limit_at_depth"] = local_strength.limits(strength, [layer.depth for layer in layers])
-    return found
-
-
-def of_limit(strength, plane):
-    """Fatigue limit of a plane; {} without a table."""
-    found = local_strength.limits(strength, [plane.depth])
-    return {} if found is None else {"limit_at_worst_depth": found}
+def limits(strength, depths):
+    """Limits sigma_eF (Pa) at depths (m), None without a table."""
+    return None if strength.table is None else np.array(strength.limits(depths))
 
 
 def at_depths(layers):
@@ -51,11 +38,12 @@ def at_depths(layers):
 def under_row(f, passage, profiles):
     """Findley stress (depth, x, y) below the row of the critical point; f (nx, rows): that of the surface, the first depth."""
     under = max(profiles, key=lambda profile: profile.worst.f)
-    row = f[:, [int(np.argmin(np.abs(passage.y - under.worst.y)))]].T
+    row = f[:, [nearest_index(passage.y, under.worst.y)]].T
     return np.concatenate([row, under.f])
 
 
 def of_profiles(f, passage, profiles, listed):
     """Arrays over depth below the row of the critical point; f: as in :func:`under_row`; listed: other depths are listed."""
-    return {"under_row_depth" if listed else "fatigue_depth": np.append(0.0, profiles[0].depths),
+    depths = np.append(0.0, profiles[0].depths)
+    return {"under_row_depth" if listed else "fatigue_depth": depths, "limit_under_row": limits(passage.strength, depths),
             "findley_stress_under_row": under_row(f, passage, profiles)}

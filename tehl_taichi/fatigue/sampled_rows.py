@@ -19,18 +19,18 @@ def spread(counts):
     return rows[((np.arange(some) + 0.5) * rows.size / some).astype(int)]
 
 
-def indices(passage, rows, depths, counts):
-    """(index (depths, points), weights (points,)) of the points that count below these searched rows.
+def indices(passage, depths, counts):
+    """(number of rows, index (depths, points), weights (points,)) of the points that count below rows :func:`spread` evenly.
 
     passage: a :class:`tehl_taichi.fatigue.stress.histories.StressHistories`; depths: (n,) m, increasing; counts: as for
     :func:`spread`.
     """
-    out, first = [], int(passage.rows.start)
+    rows, out, first = spread(counts), [], int(passage.rows.start)
     for some in np.array_split(rows, -(-rows.size // AT_ONCE)):
         found = histories_of(passage, depths, [(first + int(row), False) for row in some])
         out += [_indices(passage, depths, one[:, counts[:, row] > 0]) for row, one in zip(some, found)]
     each = counts[:, rows].T
-    return np.concatenate(out, axis=1), each[each > 0]
+    return rows.size, np.concatenate(out, axis=1), each[each > 0]
 
 
 def _indices(passage, depths, histories):

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tehl_taichi.fatigue import local_strength
 from tehl_taichi.fatigue.stress.workers import pool
 
 POINTS = 16  # points of one task
@@ -36,9 +35,7 @@ def largest(history, of=von_mises):
 
 
 def share_of(strength):
-    """Function of a depth (m) that returns yield stress at the surface / yield stress there (1 if it does not vary)."""
-    if not local_strength.varies_in_yield(strength):
-        return lambda depth: 1.0
+    """Function of a depth (m) that returns yield stress at the surface / yield stress there."""
     return lambda depth: strength.yield_stress(0.0) / strength.yield_stress(depth)
 
 

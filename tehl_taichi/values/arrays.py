@@ -1,4 +1,4 @@
-"""Arrays of numbers that a caller gives."""
+"""Arrays of numbers: those that a caller gives, and places in them."""
 
 import numpy as np
 
@@ -23,3 +23,8 @@ def floats(where, values, allowed):
         return np.asarray(np.ma.filled(found.astype(float, copy=False), np.nan))
     except (ValueError, TypeError, OverflowError):
         raise SceneError(f"{where} = {shown(values)} must be {allowed}") from None
+
+
+def nearest_index(places, to):
+    """Number of the entry of `places` (n,) that is nearest to `to`."""
+    return int(np.argmin(np.abs(places - to)))

@@ -93,8 +93,8 @@ def test_a_sparing_search_has_all_numbers_with_bars(taichi_cpu):
 def test_the_worst_depth_is_one_that_a_coarser_grid_sees(monkeypatch, cell, chosen):
     """Under an index that falls with depth, the first of a cell at least; all depths stay listed."""
     rungs = np.geomspace(0.5 * cell, 1.0, 12) * 1e-3
-    monkeypatch.setattr(sampled_rows, "indices", lambda passage, rows, depths, counts: (
-        5e-4 / np.array(depths)[:, None] * np.ones(40), np.ones(40)))
+    monkeypatch.setattr(sampled_rows, "indices", lambda passage, depths, counts: (
+        1, 5e-4 / np.array(depths)[:, None] * np.ones(40), np.ones(40)))
     passage = SimpleNamespace(a=1e-3, y=np.zeros(1), scene=NARROW)
     found = index_statistics.below(passage, [SimpleNamespace(depths=rungs, counted=None)], np.ones((40, 1)))
     assert found["depth_m"] == pytest.approx(chosen * 1e-3)

@@ -144,9 +144,8 @@ def test_it_is_printed_with_what_the_body_bears():
 
 def test_the_peak_that_is_closest_to_the_yield_stress_of_its_depth_counts():
     """A weak core at 100 um: 1.2 GPa of 1 GPa there, 1.5 of 2 GPa at the surface."""
-    table = SimpleNamespace(has=lambda name: True)
-    strength = SimpleNamespace(table=table, yield_stress=lambda depth: 1e9 if depth > 5e-5 else 2e9)
+    strength = SimpleNamespace(yield_stress=lambda depth: 1e9 if depth > 5e-5 else 2e9)
     peaks = [VonMisesPeak(1.5e9, 0.0, 0.0, 0.0), VonMisesPeak(1.2e9, 1e-4, 0.0, 0.0)]
     found = summary(peaks, 1.5e9, SimpleNamespace(name="a"), strength)
     assert (found["max_Pa"], found["depth_m"], found["yield_stress_Pa"], found["yields"]) == (1.2e9, 1e-4, 1e9, True)
-    assert share_of(strength)(1e-4) == 2.0 and share_of(SimpleNamespace(table=None))(1e-4) == 1.0
+    assert share_of(strength)(1e-4) == 2.0

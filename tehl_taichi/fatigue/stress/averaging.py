@@ -54,11 +54,12 @@ class AveragedReader:
 
     def fields(self, n, names):
         """{name: (nx+1, ny+1) array} of entry n."""
-        return {name: self._averaged(name, field) for name, field in self.reader.fields(n, names).items()}
+        return self.over_square(self.reader.fields(n, names), self.mirrored)
 
-    def _averaged(self, name, field):
-        odd = name.startswith("traction_y")
-        return averaged(averaged(field, self.along), self.across, 1, self.mirrored, odd)
+    def over_square(self, fields, mirrored):
+        """Averages of {name: (columns, rows)}; mirrored: the first row is a symmetry axis."""
+        return {name: averaged(averaged(field, self.along), self.across, 1, mirrored, name.startswith("traction_y"))
+                for name, field in fields.items()}
 
 
 class WindowedAverages(AveragedReader):
@@ -87,16 +88,13 @@ class AveragedWindow:
         """The Inside of entry n, or None."""
         if (found := self.window.inside(n, names)) is None:
             return None
-        return replace(found, fine=self._parts(self.reader, found.fine), coarse=self._parts(self.reader.base, found.coarse))
+        return replace(found, fine=self.reader.over_square(found.fine, self.at_axis),
+                       coarse=self.reader.base.over_square(found.coarse, self.at_axis))
 
     def difference(self, n, name):
         """(first fine column, (columns, rows) K of the window less the run) of entry n, or None."""
         found = self.window.difference(n, name)
-        return found and (found[0], self._parts(self.reader, {name: found[1]})[name])
-
-    def _parts(self, of, fields):
-        return {name: averaged(averaged(field, of.along), of.across, 1, self.at_axis, name.startswith("traction_y"))
-                for name, field in fields.items()}
+        return found and (found[0], self.reader.over_square({name: found[1]}, self.at_axis)[name])
 
 
 def averaged_reader(reader, length):

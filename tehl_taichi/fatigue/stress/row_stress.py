@@ -25,8 +25,8 @@ class RowStress:
     """Operator from p, q_x, q_y on all rows of a grid to the six stresses at `depths` (m, 0: the surface) under `rows`.
 
     x, y, nu, line, mirrored, kind: as for :class:`tehl_taichi.fatigue.stress.half_space.HalfSpaceStress`; mirrored rows begin
-    at y = 0. rows: their numbers. tables: :class:`tehl_taichi.fatigue.stress.kept_tables.KeptTables` that operators for other
-    rows share, or None. If the surface is the only depth, three components are computed; the others are the loads themselves.
+    at y = 0. rows: their numbers. tables: :class:`tehl_taichi.values.kept_arrays.KeptArrays` that operators for other rows
+    share, or None. If the surface is the only depth, three components are computed; the others are the loads themselves.
     On the mirror's row alone xy and yz are zero.
     """
 

@@ -5,6 +5,7 @@ import numpy as np
 from tehl_taichi.fatigue.stress.histories import LOADED, StressHistories
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.strength.strength import Strength
+from tehl_taichi.values.arrays import nearest_index
 
 
 class Steady:
@@ -36,7 +37,7 @@ class SteadySweep(StressHistories):
         self.loads_of, self.strength = self._names(), Strength(scene.fatigue, surface)
         self.dx = float(reader.x[-1] - reader.x[0]) / (reader.x.size - 1)
         self.reader = Steady(reader, self.dx / surface.speed)
-        self.middle = int(np.argmin(np.abs(reader.y)))
+        self.middle = nearest_index(reader.y, 0.0)
         self.rows, self.x = slice(self.middle, self.middle + 1), np.zeros(1)
         self.y = reader.y[self.rows]
         first = int(np.ceil((-LOADED * self.a - reader.x[0]) / self.dx))  # on nodes: no interpolation

@@ -4,11 +4,12 @@ import functools
 
 import numpy as np
 
-from tehl_taichi.fatigue.stress.kept_tables import KeptTables
 from tehl_taichi.march.zoom import overlap
 from tehl_taichi.march.zoom.window_reader import WindowReader
+from tehl_taichi.values.kept_arrays import KeptArrays
 from tehl_taichi.values.refining import Refining
 
+TABLE_BYTES = 1e8  # largest memory of the tables of unit loads, for both bodies, for pointwise and averaged stresses
 EXTREMES = {"p_max_Pa": ("pressure", np.max), "h_min_m": ("film", np.min)}  # numbers of an entry that a window changes
 
 
@@ -22,7 +23,7 @@ class ZoomedReader:
 
     def __init__(self, reader, zoomed, mirrored):
         self.base, self.zoomed, self.factor = reader, zoomed, zoomed[0].window.factor
-        self.averaged, self.kept_heat, self.tables, self.peaks = 0.0, {}, KeptTables(), {}
+        self.averaged, self.kept_heat, self.tables, self.peaks = 0.0, {}, KeptArrays(TABLE_BYTES), {}
         self.residual_fields = getattr(reader, "residual_fields", {})
         self.windows = [WindowReader(reader, one, [other for other in zoomed if other is not one], mirrored) for one in zoomed]
         self.time, self.feature_x = reader.time, reader.feature_x

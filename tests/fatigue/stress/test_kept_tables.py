@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.fatigue.stress import kept_tables, rectangle, row_stress, unit_loads
-from tehl_taichi.fatigue.stress.kept_tables import KeptTables
+from tehl_taichi.fatigue.stress import rectangle, row_stress, unit_loads
 from tehl_taichi.fatigue.stress.row_stress import RowStress
+from tehl_taichi.values.kept_arrays import KeptArrays
 
 X, Y, DEPTHS = np.arange(24) * 11e-6, np.arange(9) * 7e-6, [2e-6, 5e-6]
 
@@ -13,7 +13,7 @@ X, Y, DEPTHS = np.arange(24) * 11e-6, np.arange(9) * 7e-6, [2e-6, 5e-6]
 def test_operators_of_other_rows_take_the_same_tables(monkeypatch):
     made, unit_load = [], row_stress.unit_load
     monkeypatch.setattr(row_stress, "unit_load", lambda *given: (made.append(given[3]), unit_load(*given))[1])
-    tables = KeptTables()
+    tables = KeptArrays(1e8)
     for rows in ([3], [0, 4]):
         found = RowStress(X, Y, 0.3, True, True, DEPTHS, rows, tables=tables).rows
         assert len(made) == 3 * len(DEPTHS)
@@ -22,9 +22,8 @@ def test_operators_of_other_rows_take_the_same_tables(monkeypatch):
     assert made[-3:] == [9e-6] * 3
 
 
-def test_without_room_they_are_made_again(monkeypatch):
-    monkeypatch.setattr(kept_tables, "BYTES", 100.0)
-    tables, made = KeptTables(), []
+def test_without_room_they_are_made_again():
+    tables, made = KeptArrays(100.0), []
     for key in "aabb":
         tables.of(key, lambda key=key: (made.append(key), np.zeros(10))[1])
     assert made == ["a", "b", "b"]
