@@ -9,6 +9,7 @@ import numpy as np
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values import units
 from tehl_taichi.values.coerce import plain, shown
+from tehl_taichi.values.digits import is_number
 from tehl_taichi.values.quantity import Number
 from tehl_taichi.values.text_table import rows_of, without_empty_end, wrong_length
 
@@ -75,7 +76,7 @@ def _rows(lines):
     if not lines:
         raise ValueError("it is empty")
     columns, count, why, head = ((0, 1.0), (1, 1.0)), 2, "depth and stress", without_empty_end(lines[0][1])
-    if not all(map(_is_number, head)):
+    if not all(map(is_number, head)):
         columns, count, why, lines = _named(head), len(head), "as in the line of names", lines[1:]
     if not lines:
         raise ValueError("it has no numbers below its line of names")
@@ -111,14 +112,6 @@ def _is_other(word, unit):
 
 
 def _number(n, word):
-    if not _is_number(word):
+    if not is_number(word):
         raise ValueError(f"line {n}: {shown(word)} is not a number")
     return float(word)
-
-
-def _is_number(word):
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True

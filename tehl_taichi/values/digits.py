@@ -1,4 +1,4 @@
-"""Printed units of numbers, and their number of digits, with and without an error."""
+"""Numbers in texts: their units, and their number of digits, with and without an error."""
 
 import math
 
@@ -12,6 +12,15 @@ def printed_unit(unit, size):
     """(factor, unit) for numbers of about `size` in the SI unit `unit`: 2e9 Pa are printed in GPa."""
     known = ((factor, shown) for below, factor, shown in SCALES.get(unit, ()) if abs(size) < below)
     return next(known, (1.0, unit))
+
+
+def is_number(text):
+    """Whether a text is a number to Python."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def number_of(count, one, many=""):

@@ -9,6 +9,8 @@ import re
 import shlex
 import unicodedata
 
+from tehl_taichi.values.digits import is_number
+
 FORMULA = tuple("=+-@\t\r＝＋－＠")  # a spreadsheet computes what begins so
 LINES = "\n"
 
@@ -59,16 +61,9 @@ def cell(value):
     if not isinstance(value, str):
         return value
     text = printable(value, LINES)
-    return f"'{text}" if value.lstrip(" \n").startswith(FORMULA) and not _is_number(value) else text
+    return f"'{text}" if value.lstrip(" \n").startswith(FORMULA) and not is_number(value) else text
 
 
 def label(text):
     """Text for labels of plotly.js, which interprets some HTML tags."""
     return html.escape(printable(text), quote=False)
-
-
-def _is_number(text):
-    try:
-        return bool(float(text)) or True
-    except ValueError:
-        return False

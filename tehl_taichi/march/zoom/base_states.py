@@ -17,6 +17,15 @@ from tehl_taichi.values.interpolation import lagrange
 POINTS = 4  # states that a polynomial uses
 
 
+def weights_in_time(step, points, count):
+    """[(number of a state, weight)] of the polynomial through `points` of `count` states; of one state at a whole step."""
+    if abs(step - round(step)) < 1e-9:
+        return [(round(step), 1.0)]
+    points = min(points, count)
+    first = min(max(int(step) - points // 2 + 1, 0), count - points)
+    return list(zip(range(first, first + points), lagrange(range(first, first + points), step)))
+
+
 @dataclass(frozen=True)
 class BaseState:
     """State of the run at one moment, dimensionless.
@@ -70,13 +79,10 @@ class BaseStates:
 
     def at(self, step):
         """The BaseState at a step; a fraction is a moment between two steps."""
-        whole = round(step)
-        if abs(step - whole) < 1e-9:
-            return self.entry(whole)
-        points = min(POINTS, self.last + 1)
-        begin = min(max(int(step) - points // 2 + 1, 0), self.last + 1 - points)
-        places = range(begin, begin + points)
-        return functools.reduce(BaseState.__add__, (self.entry(n) * w for n, w in zip(places, lagrange(places, step))))
+        parts = weights_in_time(step, POINTS, self.last + 1)
+        if len(parts) == 1:
+            return self.entry(parts[0][0])
+        return functools.reduce(BaseState.__add__, (self.entry(n) * weight for n, weight in parts))
 
     def _entry(self, n):
         s, found = self.scales, self.reader.fields(n, ("pressure", "film"))

@@ -5,9 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from tehl_taichi.march.zoom.base_states import POINTS
+from tehl_taichi.march.zoom.base_states import POINTS, weights_in_time
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
-from tehl_taichi.values.interpolation import lagrange
 
 
 class BetweenSteps:
@@ -40,12 +39,8 @@ class BetweenSteps:
         return [(int(np.searchsorted(self.moments, step)), weight) for step, weight in self._steps(n, POINTS)]
 
     def _steps(self, n, points):
-        """[(step, weight)] of the polynomial for entry n; one step if the entry is a step."""
-        at, points = self.moments[n], min(points, len(self.run))
-        if abs(at - round(at)) < 1e-9:
-            return [(round(at), 1.0)]
-        first = min(max(int(at) - points // 2 + 1, 0), len(self.run) - points)
-        return list(zip(range(first, first + points), lagrange(range(first, first + points), at)))
+        """[(step, weight)] of the polynomial for entry n."""
+        return weights_in_time(self.moments[n], points, len(self.run))
 
 
 def every_moment(reader):

@@ -70,7 +70,10 @@ def passages(scene, reader, factors, notify=lambda done, total: None, until=None
     first, last = steps_of(scene, base, until)
     base.skip_to(first)
     out, done = {}, itertools.count(1)
-    groups = _groups([place for factor in sorted(factors, reverse=True) for place in _places(scene, factor)], base.holds(first))
+    places = [(factor, n) for factor in sorted(factors, reverse=True) for n in range(len(followed(scene)))]
+    # each by itself if the states of the run can be read several times: it then uses the tables and compiled kernels of the one
+    # before (gear with temperatures, factors 4 and 2: 4.5 s of processor time for kernels)
+    groups = [[place] for place in places] if base.holds(first) else [places]
 
     def notify_one():
         notify(next(done), len(groups) * (last - first))
@@ -80,21 +83,9 @@ def passages(scene, reader, factors, notify=lambda done, total: None, until=None
     return [_together([found for (own, _), found in sorted(out.items()) if own == factor]) for factor in factors]
 
 
-def _places(scene, factor):
-    """[(factor, number of the window)] of the windows of a factor."""
-    return [(factor, n) for n in range(len(followed(scene)))]
-
-
-def _groups(places, repeatable):
-    """Lists of the windows that move together: each by itself if the states of the run can be read several times, so that it
-    uses the tables and compiled kernels of the one before (gear with temperatures, factors 4 and 2: 4.5 s of processor time for
-    kernels)."""
-    return [[place] for place in places] if repeatable else [places]
-
-
 def _marched(base, places, first, last, notify):
-    """The ZoomedPassages of windows that move together from step `first` of the run to `last`; places: as of :func:`_places`;
-    notify(): called at each step."""
+    """The ZoomedPassages of windows that move together from step `first` of the run to `last`; places: [(factor, number of
+    the window)]; notify(): called at each step."""
     marches = [_march(base, *place) for place in places]
     out = [ZoomedPassage(march.window) for march in marches]
     for march in marches:

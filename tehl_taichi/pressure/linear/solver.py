@@ -126,11 +126,7 @@ class Krylov:
     def set_dense(self, inverse, place):
         """Set the inverse (nodes, nodes) of the coarsest level, whose node n has the number place[n] in the order of the
         table."""
-        size = columns(*self.levels.sizes[-1]) * simd.W
-        whole = np.zeros((size, size), self.levels.linear)
-        whole[np.ix_(place, place)] = inverse
-        # [column, lane, from] -> [column, from, lane]
-        self.dense[:] = whole.reshape(-1, simd.W, size).transpose(0, 2, 1).reshape(-1, simd.W)
+        self.dense[:] = dense_rows(inverse, place, self.levels)
         self._fill_dense()
 
     def lift(self):
@@ -171,3 +167,12 @@ class Krylov:
 def dense_entries(sizes, dense):
     """Number of lane vectors of the inverse of the coarsest level."""
     return sum(columns(*sizes[l]) ** 2 * simd.W for l in dense)
+
+
+def dense_rows(inverse, place, levels):
+    """Lane vectors (entries, W) of the inverse (nodes, nodes) of the coarsest level; place: as for :meth:`Krylov.set_dense`."""
+    size = columns(*levels.sizes[-1]) * simd.W
+    whole = np.zeros((size, size), levels.linear)
+    whole[np.ix_(place, place)] = inverse
+    # [column, lane, from] -> [column, from, lane]
+    return whole.reshape(-1, simd.W, size).transpose(0, 2, 1).reshape(-1, simd.W)

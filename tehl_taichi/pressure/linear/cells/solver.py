@@ -29,7 +29,7 @@ from tehl_taichi.pressure.linear.gmres import (
     TOLERANCE,
 )
 from tehl_taichi.pressure.linear.preconditioner import REST, REST_LINE, STORED, STORED_LINE
-from tehl_taichi.pressure.linear.solver import dense_entries
+from tehl_taichi.pressure.linear.solver import dense_entries, dense_rows
 
 ENOUGH, CONTINUES = 1, 0
 
@@ -202,7 +202,6 @@ class CellKrylov:
         self.out = ti.ndarray(ti.f32 if v.precision == "f32" else ti.f64, v.n)
         sizes = (gmres.TRIANGLE + self.most, self.most + 16), (sums, CHUNKS), (sums, GROUPS), (1, sums)
         self.numbers, self.parts, self.groups, self.totals = (ti.ndarray(ti.f64, size) for size in sizes)
-        self.dense = np.zeros((dense_entries(v.sizes, v.dense), W), v.linear)
         weights = v.vector(fields.WEIGHT).astype(v.linear).reshape(-1, W)
         self._fill(self.memory.V, operations.LOADING, 0, weights)
         self._fill(v.J, fields.SCALE, self.memory.fine.first, np.ones_like(weights))
@@ -213,11 +212,7 @@ class CellKrylov:
     def set_dense(self, inverse, place):
         """Set the inverse (nodes, nodes) of the coarsest level, whose node n has the number place[n] in the order of the
         table."""
-        size = self.memory.levels[-1].columns * W
-        whole = np.zeros((size, size), self.levels.linear)
-        whole[np.ix_(place, place)] = inverse
-        self.dense[:] = whole.reshape(-1, W, size).transpose(0, 2, 1).reshape(-1, W)
-        self._fill(self.memory.D, 0, 0, self.dense)
+        self._fill(self.memory.D, 0, 0, dense_rows(inverse, place, self.levels))
 
     def build(self):
         """Set the kinds of the nodes, and factorise the lines of the linearised problem."""
