@@ -24,6 +24,8 @@ from tehl_taichi.fatigue import assessment
 from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.scene import SceneError
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.store.crack_file import _drawn
+from tehl_taichi.store.store import Store
 
 MICRO, E_STAR, SCENE = 1e-6, 206e9 / 0.91, tehl.scene("gear")
 
@@ -551,8 +553,6 @@ def test_lines_of_the_figure_are_those_of_their_labels(rolled):
 
 
 def test_what_is_kept_for_the_page_is_what_the_figure_draws(rolled):
-    from tehl_taichi.store.crack_file import _drawn
-
     kept, side = _drawn(rolled), rolled.sides["entry"]
     np.testing.assert_allclose(kept["position"] * Scales.of(SCENE).a, rolled.plane.centres[:-1])
     for crack, found in zip((side.path.first, side.path.last), kept["sides"]["entry"]["K"], strict=True):
@@ -599,8 +599,6 @@ def test_the_page_has_the_numbers_of_a_side_in_its_sentence_and_its_figures():
 
 def rolling_store(path):
     """A store of :class:`Rolling` on the small scene's grid."""
-    from tehl_taichi.store.store import Store
-
     reader = Rolling(SMALL, 8, SMALL.rows + 1)
     shots = [shot(n) for n in range(len(reader))]
     for n, one in enumerate(shots):

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.engine.language import ti
+
 
 @pytest.fixture(scope="module")
 def launch(taichi_cpu):
@@ -13,8 +15,6 @@ def launch(taichi_cpu):
 
 @pytest.fixture(scope="module")
 def kernels(launch):
-    from tehl_taichi.engine.language import ti
-
     pair = ti.types.vector(2, ti.f64)
 
     @ti.kernel

@@ -3,6 +3,11 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.engine import fft
+from tehl_taichi.engine.fft import fast_length, radices
+from tehl_taichi.engine.field_pool import lease
+from tehl_taichi.engine.language import ti
+
 LENGTHS = (1, 2, 3, 4, 5, 6, 8, 12, 15, 16, 30, 36, 45, 50, 64, 100, 128, 240, 270)
 ACCURACY = {"f32": 1e-6, "f64": 1e-15}
 
@@ -10,10 +15,6 @@ ACCURACY = {"f32": 1e-6, "f64": 1e-15}
 @pytest.fixture(scope="module", params=("f32", "f64"))
 def transformed(request, taichi_cpu):
     """(length, numbers) -> their transform: a function (length, backward, x) -> complex (length, 4), and its accuracy."""
-    from tehl_taichi.engine import fft
-    from tehl_taichi.engine.field_pool import lease
-    from tehl_taichi.engine.language import ti
-
     lengths, owner = fft.Lengths(), type("owner", (), {})()
     places = {n: lengths.place(n) for n in LENGTHS}
     Q, w, odd = lengths.table(), lengths.twiddles(), fft.odd_radices(lengths)
@@ -50,7 +51,5 @@ def test_transforms_are_those_of_numpy(transformed, n):
 
 
 def test_fast_lengths():
-    from tehl_taichi.engine.fft import fast_length, radices
-
     assert [fast_length(n) for n in (1, 7, 11, 17, 31, 97, 257)] == [1, 8, 12, 18, 32, 100, 270]
     assert all(np.prod(radices(n)) == n and set(radices(n)) <= {2, 3, 4, 5} for n in LENGTHS)

@@ -3,19 +3,19 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.engine.records import Record
+from tehl_taichi.engine.taichi_patches.prebound import bind
+from tehl_taichi.heat import departure_points, film_tables
+from tehl_taichi.heat.heat_step import Drift, HeatStep
+from tehl_taichi.pressure.levels import Levels
+from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
+
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
 
 def test_a_bound_launch_reads_each_number_by_its_name():
     """The launch is bound before the numbers are set: it must see the new ones, each in its own place."""
-    from tehl_taichi.engine.records import Record
-    from tehl_taichi.engine.taichi_patches.prebound import bind
-    from tehl_taichi.heat import departure_points, film_tables
-    from tehl_taichi.heat.heat_step import HeatStep
-    from tehl_taichi.pressure.levels import Levels
-    from tehl_taichi.scene import scene
-    from tehl_taichi.scene.scales import Scales
-
     description = scene("smooth-line").replace(**{"thermal.on": True, "grid.nx": 64})
     levels = Levels(description, Scales.of(description), 64, 0)
     columns, step = film_tables.FilmTables(levels, 5), Record(HeatStep)
@@ -35,9 +35,6 @@ def test_a_bound_launch_reads_each_number_by_its_name():
 
 
 def test_a_number_that_a_struct_does_not_have_is_refused():
-    from tehl_taichi.engine.records import Record
-    from tehl_taichi.heat.heat_step import Drift
-
     drift = Record(Drift, shift=2)
     drift.set(rest=0.25)
     assert (drift["shift"], drift["rest"], drift["B_last"]) == (2.0, 0.25, 0.0)

@@ -3,15 +3,16 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.engine import task_pool
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.task_pool import Team
+
 JOBS, PHASES = 13, 400
 
 
 @pytest.fixture(scope="module")
 def tally(taichi_cpu):
     """A launch in which job j of phase n adds to row j what the neighbours held after phase n - 1."""
-    from tehl_taichi.engine import task_pool
-    from tehl_taichi.engine.language import ti
-
     @ti.kernel
     def count(sync: task_pool.Sync, held: ti.types.ndarray(dtype=ti.f64, ndim=2)):
         ti.loop_config(block_dim=1)
@@ -51,8 +52,6 @@ def counted(tally, team):
 @pytest.mark.parametrize("size, patience", ((1, 10**6), (2, 10**6), (5, 10**4), (2, 0), (3, 3)))
 def test_every_job_is_done_once_in_the_order_of_the_phases(tally, size, patience):
     """More workers than threads do not hang, and impatient ones may leave."""
-    from tehl_taichi.engine.task_pool import Team
-
     team = Team(size, patience)
     team.size = size
     for _ in range(20):
@@ -60,8 +59,6 @@ def test_every_job_is_done_once_in_the_order_of_the_phases(tally, size, patience
 
 
 def test_after_a_worker_has_left_fewer_are_asked(taichi_cpu):
-    from tehl_taichi.engine import task_pool
-
     team, asked, before = task_pool.Team(2), [], task_pool.crowding()
     team.size = 2
 

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 from fatigue.test_thinning import passages
 
-from tehl_taichi.fatigue import critical_planes, findley
+from tehl_taichi.engine.language import ti
+from tehl_taichi.fatigue import critical_planes, deciding_moments, findley
+from tehl_taichi.fatigue.enclosing_circle import vec3
+from tehl_taichi.fatigue.plane_components import vec6
 from tehl_taichi.laws.criteria import CRITERIA
 from tehl_taichi.laws.criteria.criterion import Criterion
 
@@ -15,11 +18,6 @@ REACH = 0.05  # rad
 
 def chosen(history, n, middle, reach):
     """Moments of one history (times, 6) that may decide around the plane n, and the others."""
-    from tehl_taichi.engine.language import ti
-    from tehl_taichi.fatigue import deciding_moments
-    from tehl_taichi.fatigue.enclosing_circle import vec3
-    from tehl_taichi.fatigue.plane_components import vec6
-
     some, count = np.arange(len(history), dtype=np.int32)[None], np.zeros(1, np.int32)
     scratch = np.empty((1, len(history))), np.empty((1, len(history)))
 
@@ -82,11 +80,6 @@ def test_what_may_overtake_the_largest_as_it_falls_is_kept(taichi_cpu):
 
 
 def test_what_a_turn_changes_is_the_range_of_principal_stresses(taichi_cpu):
-    from tehl_taichi.engine.language import ti
-    from tehl_taichi.fatigue import deciding_moments
-    from tehl_taichi.fatigue.enclosing_circle import vec3
-    from tehl_taichi.fatigue.plane_components import vec6
-
     @ti.kernel
     def turned(s: vec6, n: vec3) -> ti.f64:
         return deciding_moments.ends(s, n, 1.0)[2]

@@ -370,8 +370,6 @@ def test_the_table_names_the_worst_point_s_own_tension(found):
 def test_the_angle_to_the_surface_is_that_of_the_plane(found):
     """Pulled and pressed along z, kappa 0.3: the normal at half arctan(1/kappa) = 36.7 degrees from z, so the plane lies 36.7
     degrees to the surface; alike along x and y (the same but for a pressure): 53.3 degrees. In a passage n . z = cos of it."""
-    from tehl_taichi.fatigue import findley
-
     S, wave = np.zeros((2, 41, 6)), 1e8 * np.cos(np.linspace(0, 2 * np.pi, 41))
     S[0, :, 2] = S[1, :, 0] = S[1, :, 1] = wave
     half = np.degrees(np.arctan(1 / 0.3)) / 2

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from tehl_taichi.fatigue import findley
+from tehl_taichi.engine.language import ti
+from tehl_taichi.fatigue import findley, thinning
 from tehl_taichi.laws.criteria import CRITERIA
 
 
@@ -18,9 +19,6 @@ def passages(points=20, steps=400, seed=4):
 
 def kept(history):
     """Moments of one history (times, 6) that are kept."""
-    from tehl_taichi.engine.language import ti
-    from tehl_taichi.fatigue import thinning
-
     some, count = np.zeros((1, len(history)), np.int32), np.zeros(1, np.int32)
 
     @ti.kernel
@@ -45,8 +43,6 @@ def off_chords(history, some):
 
 
 def test_moments_near_the_chords_of_others_are_left_out(taichi_cpu):
-    from tehl_taichi.fatigue import thinning
-
     for history in passages(4):
         some = kept(history)
         assert some[0] == 0 and some[-1] == len(history) - 1 and (np.diff(some) >= 1).all()

@@ -3,6 +3,11 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.engine.records import Record
+from tehl_taichi.engine.taichi_patches.prebound import bind
+from tehl_taichi.heat import departure_points, film_tables
+from tehl_taichi.heat.heat_step import HeatStep
+from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -15,12 +20,6 @@ class Sideways:
     """A film on whose rows oil moves by so many rows, and columns, a step, all else at rest."""
 
     def __init__(self, rows, along=0.0):
-        from tehl_taichi.engine.records import Record
-        from tehl_taichi.engine.taichi_patches.prebound import bind
-        from tehl_taichi.heat import departure_points, film_tables
-        from tehl_taichi.heat.heat_step import HeatStep
-        from tehl_taichi.pressure.levels import Levels
-
         description = scene("smooth-line").replace(**{"thermal.on": True, "grid.nx": 32, "grid.ny": ROWS, "grid.y_max": 1.0})
         levels = Levels(description, Scales.of(description), 32, ROWS)
         self.slots, self.columns, step = film_tables, film_tables.FilmTables(levels, NODES), Record(HeatStep)

@@ -5,6 +5,10 @@ import dataclasses
 import numpy as np
 import pytest
 
+from tehl_taichi.heat import film_tables
+from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.sections import Rheology, Thermal
@@ -92,11 +96,6 @@ class Exact:
 
 def solved(cells, courant=0.8):
     """Largest error (K) of one step from exact earlier states, with the exact walls."""
-    from tehl_taichi.heat import film_tables
-    from tehl_taichi.heat.temperatures import FilmHeat
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.levels import Levels
-
     base = scene("smooth-line").replace(**{"contact.hertz_pressure": 0.5e9, "speed": 2.0, "srr": -0.3, "grid.y_max": 1.0,
                                            "grid.x_min": -2.5})  # the cells of the waves, however thick the film
     description = dataclasses.replace(base, rheology=Rheology(law="newtonian"), thermal=Thermal(on=True))

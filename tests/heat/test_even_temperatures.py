@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.march.passage import march
 from tehl_taichi.scene import scene
 
 ROLLING = scene("gear").replace(**{"srr": 0.0, "height": -1.5e-6, "grid.nx": 64, "grid.ny": 8, "fatigue.on": False,
@@ -14,8 +15,6 @@ ROLLING = scene("gear").replace(**{"srr": 0.0, "height": -1.5e-6, "grid.nx": 64,
 @pytest.mark.parametrize("changes, even", [({}, True), ({"srr": 1e-3}, False), ({"bodies.b.k": 45.0}, False)])
 def test_rolling_between_equal_bodies_is_the_same_at_both_walls(monkeypatch, changes, even):
     """Not only within rounding: behind a front, an odd part grows to solutions with the hot layer at one wall."""
-    from tehl_taichi.march.passage import march
-
     films, accept = [], FilmHeat.accept
 
     def keep(heat):

@@ -4,7 +4,15 @@ import math
 
 import numpy as np
 import pytest
+from heat.test_thermal import film as film_of
+from heat.test_thermal import heat_bodies, thermal
 
+from tehl_taichi.heat import conduction_modes, film_tables
+from tehl_taichi.heat.temperatures import FEW
+from tehl_taichi.laws.sheared_flow import wall_limit
+from tehl_taichi.march.passage import Passage
+from tehl_taichi.march.start import steady_snapshot
+from tehl_taichi.pressure import fields
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -13,13 +21,7 @@ pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
 def film(**changes):
     """A FilmHeat on 64 cells of a line contact, at the inlet temperature, and its levels."""
-    from tehl_taichi.heat.temperatures import FilmHeat
-    from tehl_taichi.march.alternating_start import time_step
-    from tehl_taichi.pressure.levels import Levels
-
-    description = scene("smooth-line").replace(**{"thermal.on": True, "grid.nx": 64, **changes})
-    levels = Levels(description, Scales.of(description), 64, 0)
-    heat = FilmHeat(levels, time_step(description, levels.scales, levels.dx))
+    heat, levels = film_of(thermal(**{"grid.nx": 64, **changes}), 64)
     heat.start()
     return heat, levels
 
@@ -27,9 +29,6 @@ def film(**changes):
 def step_between_walls(heat, levels, P, h, touch, rate=1e-6):
     """Temperatures of a film of P and h (m) between walls held at 90 deg C; rate: 1/s of the time derivative. Returns the heat
     into both bodies (2, nx+1) W/m2."""
-    from tehl_taichi.heat import film_tables
-    from tehl_taichi.pressure import fields
-
     for row, values in ((fields.P, P), (fields.H, h / levels.scales.h), (fields.TOUCH, touch)):
         levels.put(row, values)
     for slot in (film_tables.AA, film_tables.AB):
@@ -61,8 +60,6 @@ def test_friction_heats_where_surfaces_touch(srr):
 
 def test_a_film_that_shears_heats_by_stress_times_slip():
     """Couette flow without pressure gradient: tau |u_s| with the stress that the film itself tells, into both walls."""
-    from tehl_taichi.heat import film_tables
-
     heat, levels = film(srr=-0.2)
     nodes = np.ones(levels.X.size)
     flux = step_between_walls(heat, levels, 0.1 * nodes, 0.2e-6 * nodes, 0 * nodes)
@@ -77,8 +74,6 @@ def test_a_film_that_shears_heats_by_stress_times_slip():
 def test_a_wall_along_which_oil_slips_takes_the_heat_of_that(slope):
     """Frozen oil, a steep pressure: all heats together are the work of both walls and of the pressure, int tau du; what slips
     heats the wall where |tau| is the limit, which takes far more than the other one."""
-    from tehl_taichi.heat import film_tables
-
     heat, levels = film(srr=-0.2, **{"contact.radius_x": 5e-4, "contact.load": 5e4})  # short, so steep
     X, h = levels.X, 0.05e-6
     P = 1.2 + 0.15 * slope * X
@@ -100,8 +95,6 @@ def test_a_wall_along_which_oil_slips_takes_the_heat_of_that(slope):
 def test_both_walls_take_the_heat_of_oil_that_slips_along_both():
     """No sliding, walls strained by 1.1 times a low limit: the work of the pressure, half into each wall, and a film that stays
     colder than one that dissipates it."""
-    from tehl_taichi.heat import film_tables
-
     heat, levels = film(srr=0.0, **{"rheology.tau_L0": 1e6, "rheology.gamma": 0.0})
     X, h, s = levels.X, 1e-6, levels.scales
     P = 1.2 + 1.1 * 2e6 / h * s.a / s.p_H * X
@@ -117,28 +110,8 @@ def test_both_walls_take_the_heat_of_oil_that_slips_along_both():
     assert np.all((heat.temperature()[:, 0].max(axis=0) - 90)[inner] < 0.3 * (work * h / 8 / k)[inner])
 
 
-def test_oil_that_is_compressed_warms():
-    """20 MPa more in a thick film, which conducts nothing: rho c dT = (T + 273.15) beta dp.
-
-    At 0.2 GPa and 90 deg C beta = 6.8e-4 e^-0.3/(1 - 6.8e-4 e^-0.3 50) = 5.1676e-4 1/K and rho c = 853 * 2080 (1 + 0.082/1.21)
-    (1 + 6.5e-4 (1 + 0.54 - 0.06) 68) = 2.0184 MJ/m3K, so dT = 363.15 * 5.1676e-4 * 20/2.0184 = 1.860 K.
-    """
-    from tehl_taichi.pressure import fields
-
-    heat, levels = film(srr=-0.002)
-    nodes = np.ones(levels.X.size)
-    for row, value in ((fields.P, 0.18e9 / levels.scales.p_H), (fields.H, 1e-3 / levels.scales.h)):
-        levels.put(row, value * nodes)
-    heat.start()
-    step_between_walls(heat, levels, 0.2e9 / levels.scales.p_H * nodes, 1e-3 * nodes, 0 * nodes, rate=1e6)
-    warmer = heat.temperature()[heat.nz // 2, 0, 4:-4] - 90.0
-    np.testing.assert_allclose(warmer, 1.860, rtol=0.008)  # a little more: it is 1.9 K warmer while it is compressed
-
-
-def test_the_viscosity_follows_every_change_of_the_temperatures():
-    """What of it depends on the temperature alone is kept: it must not be of older temperatures, whoever changed them."""
-    from tehl_taichi.pressure import fields
-
+def compressed():
+    """A thick film, which conducts nothing, and its levels, from 0.18 to 0.2 GPa; and its state before."""
     heat, levels = film(srr=-0.002)
     nodes = np.ones(levels.X.size)
     for row, value in ((fields.P, 0.18e9 / levels.scales.p_H), (fields.H, 1e-3 / levels.scales.h)):
@@ -146,6 +119,23 @@ def test_the_viscosity_follows_every_change_of_the_temperatures():
     heat.start()
     cold = heat.state()
     step_between_walls(heat, levels, 0.2e9 / levels.scales.p_H * nodes, 1e-3 * nodes, 0 * nodes, rate=1e6)
+    return heat, levels, cold
+
+
+def test_oil_that_is_compressed_warms():
+    """20 MPa more in a thick film, which conducts nothing: rho c dT = (T + 273.15) beta dp.
+
+    At 0.2 GPa and 90 deg C beta = 6.8e-4 e^-0.3/(1 - 6.8e-4 e^-0.3 50) = 5.1676e-4 1/K and rho c = 853 * 2080 (1 + 0.082/1.21)
+    (1 + 6.5e-4 (1 + 0.54 - 0.06) 68) = 2.0184 MJ/m3K, so dT = 363.15 * 5.1676e-4 * 20/2.0184 = 1.860 K.
+    """
+    heat, _, _ = compressed()
+    warmer = heat.temperature()[heat.nz // 2, 0, 4:-4] - 90.0
+    np.testing.assert_allclose(warmer, 1.860, rtol=0.008)  # a little more: it is 1.9 K warmer while it is compressed
+
+
+def test_the_viscosity_follows_every_change_of_the_temperatures():
+    """What of it depends on the temperature alone is kept: it must not be of older temperatures, whoever changed them."""
+    heat, levels, cold = compressed()
 
     def viscosity():
         heat.values()
@@ -163,8 +153,6 @@ def test_the_viscosity_follows_every_change_of_the_temperatures():
 
 def test_bodies_remember_a_growing_heat():
     """Flux q = t: T = (4/3) t^1.5/(sqrt(pi) e) at every step: new and last flux count each for itself."""
-    from tehl_taichi.heat import conduction_modes
-
     dt, e = 1e-6, 13000.0
     weight, decay, gain, gain_last, B, B_last = conduction_modes.memory(dt, e, dt)
     memory, worst = np.zeros(conduction_modes.MODES), 0.0
@@ -180,19 +168,11 @@ def test_bodies_remember_a_growing_heat():
 def test_moving_half_space_under_a_growing_flux(sliding, within):
     """q = g x behind an edge on steel: material points see g u t, so T = (4/3) g x^1.5/sqrt(pi k rho c u) on both bodies;
     where a body moves by broken cells in a step, the edge is interpolated."""
-    from tehl_taichi.heat import film_tables
-
     heat, levels = film(srr=sliding)
-    edge, steps = 16, 160
+    edge = 16
     x = np.maximum((levels.X - levels.X[edge]) * levels.scales.a, 0.0)
     flux = (60e6 * x / 0.5e-3)[None, :]
-    for _ in range(steps):
-        heat.begin(heat.dt)
-        for slot in (film_tables.QA, film_tables.QB):
-            heat.columns.put_single(slot, flux)
-        heat.bodies.steady = False
-        heat.bodies.accept()
-    heat.begin(heat.dt)
+    heat_bodies(heat, flux, steps=160)
     far = x > 3.5 * levels.dx * levels.scales.a
     for slot, body, B in zip((film_tables.AA, film_tables.AB), heat.bodies.each, ("B_a", "B_b")):
         rise = heat.columns.single(slot)[0] - 90.0 + heat.step[B] * flux[0]
@@ -214,9 +194,6 @@ def test_the_share_of_each_body_follows_its_effusivity():
 
 def test_columns_without_a_solution_keep_the_temperatures_of_the_oil_that_came_in():
     """One Newton step where ten are needed: columns fail, and stop a step; held, they take those of the departure points."""
-    from tehl_taichi.heat import film_tables
-    from tehl_taichi.pressure import fields
-
     heat, levels = film(srr=-0.5)
     X = levels.X
     levels.put(fields.P, np.sqrt(np.maximum(1 - X**2, 0)))
@@ -232,8 +209,6 @@ def test_columns_without_a_solution_keep_the_temperatures_of_the_oil_that_came_i
 
 
 def test_few_columns_without_a_solution_are_held_once():
-    from tehl_taichi.heat.temperatures import FEW
-
     heat, _ = film()
     heat.report.failed = FEW + 1
     assert not heat.hold()
@@ -248,11 +223,7 @@ def test_few_columns_without_a_solution_are_held_once():
 
 def test_at_a_crest_oil_slips_along_both_walls():
     """Frozen oil; beside the crest along the wall where the stress is larger, and no step is taken in parts."""
-    from tehl_taichi.heat import film_tables, sliding
-    from tehl_taichi.laws.sheared_flow import wall_limit
-    from tehl_taichi.march.passage import Passage
-    from tehl_taichi.march.start import steady_snapshot
-    from tehl_taichi.pressure import fields
+    from tehl_taichi.heat import sliding
 
     stiff = scene("gear").replace(**{"feature.length": math.inf, "grid.nx": 64, "oil.name": "mineral-vg220"})
     scales = Scales.of(stiff)
@@ -273,9 +244,6 @@ def test_at_a_crest_oil_slips_along_both_walls():
 
 def test_a_grid_that_moves_has_the_temperatures_of_one_at_rest():
     """States of the last two steps of a grid that has moved by 2 and by 3 columns since."""
-    from tehl_taichi.heat import film_tables
-    from tehl_taichi.pressure import fields
-
     def solved(moved, before):
         heat, levels = film(srr=-0.2)
         X = levels.X

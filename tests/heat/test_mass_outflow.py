@@ -3,6 +3,12 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.records import Record, read
+from tehl_taichi.engine.simd import Flat, Table, W, block_at, tile, tiles
+from tehl_taichi.heat import energy, film_tables
+from tehl_taichi.heat.heat_step import HeatStep
+from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -12,13 +18,6 @@ NODES, ROWS, COLUMNS = 3, 12, 32
 
 def outflow(across):
     """Flow of mass out of the rows, of a film whose oil flows so much across them (ROWS + 1,) and not along."""
-    from tehl_taichi.engine.language import ti
-    from tehl_taichi.engine.records import Record, read
-    from tehl_taichi.engine.simd import Flat, Table, W, block_at, tile, tiles
-    from tehl_taichi.heat import energy, film_tables
-    from tehl_taichi.heat.heat_step import HeatStep
-    from tehl_taichi.pressure.levels import Levels
-
     @ti.kernel
     def collect(Z: ti.template(), G: Table, numbers: Flat, out: Table):
         nx, ny, step = int(G[0, 1]), int(G[0, 2]), read(HeatStep, numbers)

@@ -6,6 +6,8 @@ import pytest
 from tehl_taichi.engine.simd import TILE
 from tehl_taichi.heat import film_tables
 from tehl_taichi.heat.relaxation import BACK, CREEP
+from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -16,9 +18,6 @@ GOAL = 100.0
 @pytest.fixture
 def heat():
     """A FilmHeat on 64x16 cells of a line contact, at the beginning of a step."""
-    from tehl_taichi.heat.temperatures import FilmHeat
-    from tehl_taichi.pressure.levels import Levels
-
     description = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16})
     levels = Levels(description, Scales.of(description), 64, 16)
     heat = FilmHeat(levels, 1e-6)

@@ -3,6 +3,7 @@
 import pytest
 
 from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.march.passage import march
 from tehl_taichi.scene import scene
 
 EXIT = scene("gear").replace(**{"srr": 0.12, "grid.nx": 64, "grid.ny": 16, "time.x_start": -1.4, "time.x_end": 1.3,
@@ -14,8 +15,6 @@ NEAR = 1.0  # K, that a round changes: the next one might be the last
 def test_further_solves_at_equal_pressure_hardly_change_temperatures(monkeypatch):
     """As an asperity leaves, first Newton steps of columns behind it are too long: with those of up to 0.2 K as the last ones,
     temperatures jump by 0.08 K from solve to solve. Velocities follow the temperatures one solve later, so the third counts."""
-    from tehl_taichi.march.passage import march
-
     solve, changes, steps = FilmHeat.solve, [], []
 
     def more(heat, again=False):

@@ -6,6 +6,8 @@ import pytest
 from tehl_taichi.engine.simd import TILE, W
 from tehl_taichi.heat import film_tables
 from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.march.passage import Passage, march
+from tehl_taichi.march.start import steady_snapshot
 from tehl_taichi.pressure import fields
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
@@ -17,8 +19,6 @@ GEAR = scene("gear").replace(**{"srr": -0.12, "grid.nx": 128, "grid.ny": 32, "ti
 @pytest.mark.slow
 def test_what_rests_would_hardly_move(taichi_cpu, monkeypatch):
     """Every later round is solved for all tiles, too: it differs by less than a round may leave."""
-    from tehl_taichi.march.passage import march
-
     solve, rested, differs = FilmHeat.solve, [], []
 
     def both(heat, again=False):
@@ -47,16 +47,12 @@ def test_what_rests_would_hardly_move(taichi_cpu, monkeypatch):
 @pytest.fixture(scope="module")
 def start(taichi_cpu):
     """State of the steady start."""
-    from tehl_taichi.march.start import steady_snapshot
-
     return steady_snapshot(GEAR, Scales.of(GEAR)).state
 
 
 @pytest.fixture
 def heat(start):
     """Temperatures of a film solved for, so that every tile may rest."""
-    from tehl_taichi.march.passage import Passage
-
     passage = Passage(GEAR, Scales.of(GEAR), start)
     passage.advance()
     passage.heat.begin(passage.dT * passage.scales.t)

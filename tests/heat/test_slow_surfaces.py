@@ -5,8 +5,15 @@ import math
 import numpy as np
 import pytest
 
+from tehl_taichi.heat import conduction_modes, film_tables
+from tehl_taichi.heat.bodies import ConductingBody
+from tehl_taichi.heat.conduction_modes import is_fast, widths
+from tehl_taichi.heat.strips import DECAY, GAIN, GAIN_LAST, WEIGHT
+from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.march.alternating_start import time_step
+from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import peclet
+from tehl_taichi.scene.scales import Scales, peclet
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 STEEL = dict(k=47.0, rho=7850.0, c=450.0)
@@ -15,11 +22,6 @@ ALPHA = STEEL["k"] / STEEL["rho"] / STEEL["c"]
 
 def film(srr, ratio):
     """A FilmHeat on 64 columns of a point contact, steel on steel, and its levels."""
-    from tehl_taichi.heat.temperatures import FilmHeat
-    from tehl_taichi.march.alternating_start import time_step
-    from tehl_taichi.pressure.levels import Levels
-    from tehl_taichi.scene.scales import Scales
-
     steel = {f"bodies.{body}.{key}": value for body in "ab" for key, value in STEEL.items()}
     description = scene("ball-on-disc").replace(
         srr=srr, speed=2.0, **{"thermal.on": True, "rheology.law": "limiting", "oil.name": "reference-pao",
@@ -62,8 +64,6 @@ def exact(flux, dx, dy, u):
 
 def heated(srr, ratio):
     """(rise of surface b under a Hertzian flux, exact rise, flux) on the half domain, Peclet number."""
-    from tehl_taichi.heat import film_tables
-
     heat, levels = film(srr, ratio)
     body, flux = heat.bodies.each[1], None
     whole, dx, dy = hertzian(levels)
@@ -94,8 +94,6 @@ def test_a_slow_surface_is_as_hot_as_an_exact_half_space(srr, ratio):
 
 def test_the_memory_loses_heat_as_its_kernel_does():
     """Steady flux: the integral of K, at every step, and after a long time."""
-    from tehl_taichi.heat import conduction_modes
-
     spread = 300.0, 2000.0
     v = np.concatenate([[0.0], np.geomspace(1e-3, 1e5, 400001)])
     K = 2 / np.sqrt(np.pi * (1 + v * v / spread[0]) * (1 + v * v / spread[1]))
@@ -113,8 +111,6 @@ def test_the_memory_loses_heat_as_its_kernel_does():
 @pytest.mark.parametrize("ratio, slowest", [(0.2, 2500.0), (0.5, 400.0), (1.0, 100.0), (3.0, 100.0)])
 def test_a_surface_is_fast_where_sideways_conduction_takes_less_than_a_hundredth(ratio, slowest):
     """Of the rise by a steady flux over the whole length of the contact; ratio: b/a. Time in a^2/alpha, its root from 0 on."""
-    from tehl_taichi.heat.conduction_modes import is_fast, widths
-
     assert is_fast(1.01 * slowest, 1.0, ratio) and not is_fast(0.99 * slowest, 1.0, ratio)
     assert is_fast(1.01 * slowest, 2e-4, ratio * 2e-4)
     root = np.linspace(0.0, math.sqrt(2 / slowest), 1001)
@@ -123,10 +119,6 @@ def test_a_surface_is_fast_where_sideways_conduction_takes_less_than_a_hundredth
 
 
 def test_fast_surfaces_and_lines_lose_nothing_sideways():
-    from tehl_taichi.heat import conduction_modes
-    from tehl_taichi.heat.bodies import ConductingBody
-    from tehl_taichi.scene.scales import Scales
-
     ball, line = (scene(name) for name in ("ball-on-disc", "smooth-line"))
     for one, speed, alone in ((ball, 50.0, True), (ball, 0.05, False), (line, 0.05, True)):
         assert (ConductingBody(one.body_a, speed, False, 1e-6, Scales.of(one)).spread == conduction_modes.NONE) == alone
@@ -134,10 +126,6 @@ def test_fast_surfaces_and_lines_lose_nothing_sideways():
 
 def test_a_settled_surface_at_rest_has_the_temperature_of_many_steps():
     """Of the same flux in all of them."""
-    from tehl_taichi.heat.bodies import ConductingBody
-    from tehl_taichi.heat.strips import DECAY, GAIN, GAIN_LAST, WEIGHT
-    from tehl_taichi.scene.scales import Scales
-
     line = scene("smooth-line")
     body, modes = ConductingBody(line.body_a, 0.0, True, 1e-6, Scales.of(line)), 0.0
     steady = body.begin(0.1, 0.0, 0.0, settled=True)

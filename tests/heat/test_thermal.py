@@ -6,6 +6,18 @@ import math
 import numpy as np
 import pytest
 
+from tehl_taichi.heat import conduction_modes, film_tables
+from tehl_taichi.heat.chebyshev import chebyshev
+from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.laws.conduction import heat_capacity
+from tehl_taichi.laws.density import expansivity
+from tehl_taichi.march.alternating_start import time_step
+from tehl_taichi.march.passage import march
+from tehl_taichi.march.steady import solve_steady
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.isothermal import OneTemperature
+from tehl_taichi.pressure.levels import Levels
+from tehl_taichi.pressure.newton import PressureSolver
 from tehl_taichi.scene import Scene, scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.sections import Rheology, Thermal
@@ -22,21 +34,24 @@ def thermal(name="smooth-line", **changes):
 
 def film(description, nx):
     """A FilmHeat on a one-dimensional grid, with its levels."""
-    from tehl_taichi.heat.temperatures import FilmHeat
-    from tehl_taichi.march.alternating_start import time_step
-    from tehl_taichi.pressure.levels import Levels
-
     levels = Levels(description, Scales.of(description), nx, 0)
     heat = FilmHeat(levels, time_step(description, levels.scales, levels.dx))
     return heat, levels
 
 
+def heat_bodies(heat, flux, steps):
+    """Steps under a flux (rows, columns) W/m2 into both bodies, and the beginning of the next one."""
+    for _ in range(steps):
+        heat.begin(heat.dt)
+        for slot in (film_tables.QA, film_tables.QB):
+            heat.columns.put_single(slot, flux)
+        heat.bodies.steady = False
+        heat.bodies.accept()
+    heat.begin(heat.dt)
+
+
 def test_a_solver_takes_density_and_viscosity_from_its_film():
     """Of hot oil where it is handed a film with temperatures, of oil at the inlet's temperature before and without."""
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.isothermal import OneTemperature
-    from tehl_taichi.pressure.newton import PressureSolver
-
     heat, levels = film(thermal(), 64)
     solver = PressureSolver(levels, OneTemperature(levels))
     levels.put(fields.P, 0.1)
@@ -53,8 +68,6 @@ def test_a_solver_takes_density_and_viscosity_from_its_film():
 
 
 def test_chebyshev_matrices_are_exact_for_polynomials():
-    from tehl_taichi.heat.chebyshev import chebyshev
-
     z, C, D, D2 = chebyshev(9)
     f, integral = z**6 - 2 * z**3, z**7 / 7 - z**4 / 2
     assert np.allclose(C @ f, integral, atol=1e-13)
@@ -63,8 +76,6 @@ def test_chebyshev_matrices_are_exact_for_polynomials():
 
 def test_bodies_remember_their_heat():
     """Steady flux on a half-space: T = 2 q sqrt(t/(pi k rho c)), at every step; also with steps of half the length."""
-    from tehl_taichi.heat import conduction_modes
-
     for part in (1.0, 0.5):
         weight, decay, gain, gain_last, B, B_last = conduction_modes.memory(part * 1e-6, 13000.0, 1e-6)
         memory, worst = np.zeros(conduction_modes.MODES), 0.0
@@ -77,8 +88,6 @@ def test_bodies_remember_their_heat():
 
 def test_a_slab_remembers_its_heat():
     """Steady flux on a slab 100 diffusion lengths of a step deep: its series solution, and depth/k after a long time."""
-    from tehl_taichi.heat import conduction_modes
-
     depth = 100.0
     weight, decay, gain, gain_last, B, B_last = conduction_modes.memory(1.0, 1.0, 1.0, depth)
     memory, times = np.zeros(conduction_modes.MODES), np.arange(1, 30001)
@@ -95,22 +104,14 @@ def test_a_slab_remembers_its_heat():
 @pytest.mark.parametrize("speed, sliding", [(8.5, 0.0), (8.5, -0.3)])
 def test_moving_half_space_under_a_uniform_flux(speed, sliding):
     """60 MW/m2 on steel: 40.30 K half a millimetre behind the edge at 8.5 m/s, 2 q sqrt(x/(pi k rho c u)) anywhere."""
-    from tehl_taichi.heat import film_tables as kernels
-
     heat, levels = film(thermal(speed=speed, srr=sliding), 256)
     heat.start()
     S, edge = levels.scales, 32
     flux = np.zeros((1, levels.nx + 1))
     flux[..., edge:] = 60e6
-    for _ in range(2 * levels.nx):
-        heat.begin(heat.dt)
-        for slot in (kernels.QA, kernels.QB):
-            heat.columns.put_single(slot, flux)
-        heat.bodies.steady = False
-        heat.bodies.accept()
-    heat.begin(heat.dt)
+    heat_bodies(heat, flux, 2 * levels.nx)
     x = (levels.X - levels.X[edge] + 0.5 * levels.dx) * S.a
-    for slot, body, B in zip((kernels.AA, kernels.AB), heat.bodies.each, ("B_a", "B_b")):
+    for slot, body, B in zip((film_tables.AA, film_tables.AB), heat.bodies.each, ("B_a", "B_b")):
         rise = heat.columns.single(slot)[0] - levels.conditions["inlet"] + heat.step[B] * flux[0]
         exact = 2 * 60e6 * np.sqrt(np.maximum(x, 0) / (math.pi * 47 * 7850 * 450 * body.speed))
         far = x > 0.4e-3
@@ -126,9 +127,6 @@ COUETTE = {0.1: (0.0124225200, 0.9917491170), 1.0: (0.1177830357, 0.9241962407),
 @pytest.mark.parametrize("Na", COUETTE)
 def test_thermal_couette_flow(Na):
     """eta = eta0 exp(-b (T - T_w)) between walls at T_w: b dT_max = ln(1 + Na/8), tau h/(eta0 U) (closed form)."""
-    from tehl_taichi.heat import film_tables as kernels
-    from tehl_taichi.pressure import fields
-
     b, h = 0.05, 1e-6
     oil = dataclasses.replace(scene().oil, name="reynolds", viscosity="barus", alpha=1e-9, beta_eta=b, Gamma0=90.0, eta0=0.02,
                               expansion="never")
@@ -139,22 +137,20 @@ def test_thermal_couette_flow(Na):
     heat.start()
     levels.put(fields.P, 0.0)
     levels.put(fields.H, h / levels.scales.h)
-    for slot in (kernels.AA, kernels.AB):
+    for slot in (film_tables.AA, film_tables.AB):
         heat.columns.put_single(slot, np.full((1, levels.nx + 1), 90.0))
     heat.step.set(rate=1e-6, inv_x=1.0, inv_y=1.0, tolerance=1e-9, iterations=40, back=1.0, back_2=1.0,
                   near=1.0)  # no time derivative: the walls decide
     for _ in range(3):
         heat.solve()
     heat._velocities()
-    T, tau = heat.temperature()[:, 0, 10], heat.columns.single(kernels.TAU)[0, 10]
+    T, tau = heat.temperature()[:, 0, 10], heat.columns.single(film_tables.TAU)[0, 10]
     theta, stress = COUETTE[Na]
     assert b * (T.max() - 90.0) == pytest.approx(theta, rel=3e-4)
     assert abs(tau) * h / (oil.eta0 * slip) == pytest.approx(stress, rel=3e-4)
 
 
 def steady(**changes):
-    from tehl_taichi.march.passage import march
-
     return next(march(thermal(**changes)))
 
 
@@ -197,10 +193,6 @@ def test_strong_sliding_settles(srr):
 @pytest.mark.parametrize("srr", [-2.0, 2.0])
 def test_simple_sliding(srr):
     """A surface at rest conducts through 3 a of its body: T - T_0 = q 3 a/k at every point."""
-    from tehl_taichi.heat import film_tables
-    from tehl_taichi.march.steady import solve_steady
-    from tehl_taichi.pressure import fields
-
     description = thermal(srr=srr, **{"grid.nx": 64})
     result = solve_steady(description, Scales.of(description), 64, 0)
     assert result.report.converged
@@ -213,8 +205,6 @@ def test_simple_sliding(srr):
 
 
 def passage(**changes):
-    from tehl_taichi.march.passage import march
-
     return list(march(thermal("gear", **{"grid.nx": 64, "grid.ny": 16, **changes})))
 
 
@@ -244,23 +234,7 @@ def test_order_in_time():
         assert np.log2(change[0] / change[1]) > order
 
 
-def test_going_on_from_a_thermal_state_repeats_the_run():
-    from tehl_taichi.march.passage import march
-
-    description = thermal("gear", **{"grid.nx": 64, "grid.ny": 16, "time.steps": 10})
-    run = march(description)
-    whole = [next(run) for _ in range(6)]
-    state = whole[-1].state
-    whole += run
-    rest = list(march(description, state))
-    for name, values in rest[-1].fields.items():
-        assert np.array_equal(values, whole[-1].fields[name]), name
-
-
 def test_isothermal_scenes_hold_nothing_of_it():
-    from tehl_taichi.march.passage import march
-    from tehl_taichi.pressure import fields
-
     s = next(march(scene("smooth-line").replace(**{"thermal.on": False, "grid.nx": 64})))
     assert not any("temperature" in name for name in s.fields) and "film_max_C" not in s.scalars
     assert fields.NROWS < fields.NROWS_THERMAL and not any(key.startswith("heat") for key in s.state)
@@ -271,8 +245,6 @@ def test_a_point_contact_heats_up():
                                       "oil.name": "reference-pao"}).to_dict()  # of other tests' kernels
     data["contact"].update(hertz_pressure=1.0e9, load=0.0)
     data["operation"].update(u_m=0.5)
-    from tehl_taichi.march.passage import march
-
     s = next(march(Scene.from_dict(data)))
     assert s.scalars["residual"] < 1e-6 and s.scalars["film_max_C"] > data["operation"]["temperature"] + 1
     # glass (b) keeps its heat: the hotter surface is the one that conducts less
@@ -281,16 +253,11 @@ def test_a_point_contact_heats_up():
 
 def sources_and_sinks(heat, levels):
     """Per column, W/m2: dissipation, compression heat, heat into the bodies, heat that the oil takes along (steady, 1-D)."""
-    from tehl_taichi.heat import film_tables as kernels
-    from tehl_taichi.laws.conduction import heat_capacity
-    from tehl_taichi.laws.density import expansivity
-    from tehl_taichi.pressure import fields
-
     S, oil, w, zeta = levels.scales, levels.scene.oil, heat.across.weights[:, None], heat.across.zeta[:, None]
     P, H = levels.get(fields.P)[0] * S.p_H, levels.get(fields.H)[0] * S.h
     T, TS, ie, rho, MX, MS, dp = (heat.columns.nodes(kind)[:, 0] for kind in (
-        kernels.T, kernels.TS, kernels.NIE, kernels.NRHO, kernels.MX, kernels.MS, kernels.PS))
-    shear, tau = heat.columns.singles.get(kernels.XA, 4)[:, 0], heat.columns.single(kernels.TAU)[0]
+        film_tables.T, film_tables.TS, film_tables.NIE, film_tables.NRHO, film_tables.MX, film_tables.MS, film_tables.PS))
+    shear, tau = heat.columns.singles.get(film_tables.XA, 4)[:, 0], heat.columns.single(film_tables.TAU)[0]
     e0, eta0 = (w * ie).sum(0), levels.conditions["eta0"]
     centre = (w * zeta * ie).sum(0) / e0
     left = tau * H * e0 / (-levels.scene.operation.u_s * eta0)  # of the viscosity by the shear law
@@ -304,14 +271,11 @@ def sources_and_sinks(heat, levels):
     carried = H * (w * rc * (T - TS)).sum(0) * rate + (w * rc / rho * drift * (heat.across.D1 @ T)).sum(0)
     dissipated = H * (w * stress**2 * ie).sum(0) / (left * eta0) * fade
     squeezed = H * (w * swell * (T + 273.15) * dp).sum(0) * rate * fade
-    return dissipated, squeezed, (heat.columns.single(kernels.QA) + heat.columns.single(kernels.QB))[0], carried
+    return dissipated, squeezed, (heat.columns.single(film_tables.QA) + heat.columns.single(film_tables.QB))[0], carried
 
 
 def test_heat_balance():
     """Heat into the bodies and the oil = friction and compression, to 1e-3 of the friction; 58.2 kW/m go into the bodies."""
-    from tehl_taichi.march.steady import solve_steady
-    from tehl_taichi.pressure import fields
-
     description = thermal(srr=-0.1176, **{"grid.nx": 256, **AT_TWO})
     result = solve_steady(description, Scales.of(description), 256, 0)
     assert result.report.converged and result.heat.report.failed == 0
@@ -327,7 +291,5 @@ def test_heat_balance():
 @pytest.mark.parametrize("srr", [-0.12, 0.12])
 def test_a_narrow_asperity_leaves_on_128_columns(srr):
     """100 um wide, nine cells: its temperatures at the outlet take more rounds; it stopped at 1.06 and 1.15 a."""
-    from tehl_taichi.march.passage import march
-
     *_, last = march(scene("gear").replace(srr=srr, width=100e-6, **{"grid.nx": 128, "grid.ny": 32}))
     assert last.feature_x > 1.39 * Scales.of(scene("gear")).a and last.scalars["film_max_C"] < 250

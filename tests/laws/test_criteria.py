@@ -6,7 +6,7 @@ from values.test_registry import hold
 
 from tehl_taichi.fatigue import findley
 from tehl_taichi.laws.criteria import CRITERIA, sensitivities
-from tehl_taichi.scene import SceneError
+from tehl_taichi.scene import SceneError, scene, scene_file
 
 S, KAPPA = 100.0, 0.4
 TURN = 2 * np.pi * np.arange(90) / 90
@@ -54,8 +54,6 @@ def test_fatigue_limits_give_constants_that_give_the_limits(name):
 
 
 def test_the_template_says_what_kappa_is_the_sensitivity_to():
-    from tehl_taichi.scene import scene, scene_file
-
     lines = {line.split(" = ")[0]: line for line in scene_file.dumps(scene("gear")).splitlines()}
     assert sensitivities() in lines["kappa"] and ", ".join(CRITERIA) in lines["criterion"]
 

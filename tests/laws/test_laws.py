@@ -3,6 +3,11 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.engine.language import ti
+from tehl_taichi.laws.density import rho_ratio
+from tehl_taichi.laws.rheology import shear_stress
+from tehl_taichi.laws.shear import shear_limit
+from tehl_taichi.laws.viscosity import LAWS, ln_eta, ln_eta_of, part, parts
 from tehl_taichi.scene import film_formula, hertz
 from tehl_taichi.scene.named_oils import OILS
 from tehl_taichi.scene.oil import Oil
@@ -10,24 +15,18 @@ from tehl_taichi.scene.sections import Rheology
 
 
 def test_roelands_against_the_property_table():
-    from tehl_taichi.laws.viscosity import ln_eta
-
     # eta of the reference oil (Pa s) at 1.93 GPa: 90, 140, 190 deg C (to the digits given)
     eta = [float(np.exp(ln_eta(Oil(), 1.93e9, t))) for t in (90.0, 140.0, 190.0)]
     assert eta == pytest.approx([2840, 46.5, 3.2], rel=0.02)
 
 
 def test_laws_agree_at_zero_pressure_and_low_pressure():
-    from tehl_taichi.laws.viscosity import LAWS, ln_eta
-
     oil = OILS["moes-test-fluid"]
     assert float(ln_eta(oil, 0.0, 40.0)) == pytest.approx(np.log(0.04))
     assert LAWS["roelands"].ln_eta(oil, 1e5, 0.0) == pytest.approx(LAWS["barus"].ln_eta(oil, 1e5, 0.0), abs=1e-5)
 
 
 def test_houpert_is_roelands_at_its_own_temperature():
-    from tehl_taichi.laws.viscosity import LAWS
-
     houpert, roelands = LAWS["houpert"].ln_eta, LAWS["roelands"].ln_eta
     oil = Oil(viscosity="houpert", Z=2.2e-8 * 1.96e8 / (np.log(0.04) + 9.67), Gamma0=60.0)
     assert float(houpert(oil, 1e9, 60.0)) == pytest.approx(float(roelands(oil, 1e9, 60.0)), rel=1e-10)
@@ -36,8 +35,6 @@ def test_houpert_is_roelands_at_its_own_temperature():
 
 @pytest.mark.parametrize("name", ["roelands-temperature", "houpert"])
 def test_parts_that_a_film_keeps_give_the_law(name):
-    from tehl_taichi.laws.viscosity import LAWS, ln_eta, ln_eta_of, part, parts
-
     oil = Oil(viscosity=name)
     assert parts(oil) == len(LAWS[name].parts) > 0
     for p, Gamma in ((0.0, 20.0), (1e9, 90.0), (3e9, 250.0)):
@@ -45,17 +42,11 @@ def test_parts_that_a_film_keeps_give_the_law(name):
 
 
 def test_table_interpolates_and_continues():
-    from tehl_taichi.laws.viscosity import ln_eta
-
     oil = Oil(viscosity="table", table=((0.0, -4.0), (1e9, 6.0), (2e9, 10.0)))
     assert [float(ln_eta(oil, p, 0.0)) for p in (0.0, 0.5e9, 1e9, 1.5e9, 3e9)] == pytest.approx([-4, 1, 6, 8, 14])
 
 
 def test_laws_take_arrays_and_kernels(taichi_cpu):
-    from tehl_taichi.engine.language import ti
-    from tehl_taichi.laws.density import rho_ratio
-    from tehl_taichi.laws.viscosity import ln_eta
-
     @ti.kernel
     def both(p: ti.types.ndarray(dtype=ti.f64, ndim=1), out: ti.types.ndarray(dtype=ti.f64, ndim=2), oil: ti.template()):
         for i in range(p.shape[0]):
@@ -69,16 +60,11 @@ def test_laws_take_arrays_and_kernels(taichi_cpu):
 
 
 def test_density_of_dowson_and_higginson():
-    from tehl_taichi.laws.density import rho_ratio
-
     p = 1e9
     assert float(rho_ratio(OILS["moes-test-fluid"], p, 40.0)) == pytest.approx((5.9e8 + 1.34 * p) / (5.9e8 + p))
 
 
 def test_shear_limit_is_reached_and_never_passed():
-    from tehl_taichi.laws.rheology import shear_stress
-    from tehl_taichi.laws.shear import shear_limit
-
     law = Rheology()
     limit = float(shear_limit(law, 1e9))
     assert float(shear_stress(law, 1e12, 1e9)) == pytest.approx(limit, rel=1e-6)

@@ -5,10 +5,15 @@ or a preconditioner that has lost something (weights of the coarser grids, a der
 """
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from tehl_taichi.march import coupling
+from tehl_taichi.march.coupling import exchange
+from tehl_taichi.march.passage import march
+from tehl_taichi.pressure.newton import SolveReport
 from tehl_taichi.scene import scene
 
 # Newton steps and Krylov iterations: of the steady start, and a step (mean of the steps taken); None: there is none, or with
@@ -51,8 +56,6 @@ SLOW = ("ridge that leaves, with temperatures",)
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW)) for name in COUNTS])
 def test_work_is_what_it_was(taichi_cpu, name):
-    from tehl_taichi.march.passage import march
-
     keys = "newton", "cycles", "residual", "mass_error", "rejected"
     start, *steps = [[s.scalars[key] for key in keys] for s in march(SCENES[name])]
     assert sum(s[4] for s in steps) == 0 or not SCENES[name].isothermal
@@ -67,8 +70,6 @@ def test_work_is_what_it_was(taichi_cpu, name):
 def test_work_does_not_grow_with_the_grid(taichi_cpu):
     """Krylov iterations a step as the asperity comes in, once the guesses have steps to go by: some 29 on 1024 columns where
     only the middle of the contact is distributed."""
-    from tehl_taichi.march.passage import march
-
     def cycles(nx, steps):
         incoming = {"thermal.on": False, "srr": -0.12, "time.x_start": -1.4, "grid.nx": nx, "grid.ny": nx // 4,
                     "time.steps": steps}
@@ -83,8 +84,6 @@ def test_work_does_not_grow_with_the_grid(taichi_cpu):
 def test_work_does_not_grow_over_a_whole_passage(taichi_cpu):
     """Krylov iterations a step, those of failed attempts too: 15.1, 13.8 and 16.4 on 128, 256 and 512 columns; 23.5 on 512
     where walls yield by their law alone."""
-    from tehl_taichi.march.passage import march
-
     def cycles(nx):
         whole = {"thermal.on": False, "srr": -0.12, "grid.nx": nx, "grid.ny": nx // 4}
         return np.mean([shot.scalars["cycles"] for shot in march(scene("gear").replace(**whole)) if shot.step])
@@ -96,11 +95,6 @@ def test_work_does_not_grow_over_a_whole_passage(taichi_cpu):
 
 def test_a_step_counts_the_work_of_attempts_that_failed(monkeypatch):
     """From the guess without success, then from the last pressure: the Newton steps and Krylov iterations of both."""
-    from types import SimpleNamespace
-
-    from tehl_taichi.march import coupling
-    from tehl_taichi.pressure.newton import SolveReport
-
     asked, put = [], []
     reports = [SolveReport(1e-3, 0.0, 0.0, 30, 90, False), SolveReport(1e-7, 0.0, 0.0, 8, 60, True)]
 
@@ -121,23 +115,16 @@ class Solves:
     """A solver and a film that take what they answer from lists, and remember what they were asked for."""
 
     def __init__(self, change, improved, residuals, temperatures):
-        from types import SimpleNamespace
-
         thermal = SimpleNamespace(rounds=32, tolerance=0.05)
         self.levels = SimpleNamespace(scene=SimpleNamespace(thermal=thermal))
         self.change, self.improved, self.asked = change, improved, []
         self.residuals, self.temperatures = residuals, temperatures
 
     def improve(self, keeps):
-        from tehl_taichi.pressure.newton import SolveReport
-
         self.asked.append("improve")
         return SolveReport(self.improved, 0.0, 0.0, 1, 3, False)
 
     def solve(self, again=None, enough=0.0):
-        from types import SimpleNamespace
-
-        from tehl_taichi.pressure.newton import SolveReport
 
         if again is not None:
             self.asked.append("heat")
@@ -159,8 +146,6 @@ class Solves:
     (0.01, 1e-2, [1e-2, 1e-7], [30.0, 0.01], "improve heat roughly solve heat"),  # and here no help
 ])
 def test_a_pressure_is_solved_for_roughly_while_temperatures_are_far_off(change, improved, residuals, temperatures, asked):
-    from tehl_taichi.march.coupling import exchange
-
     solves = Solves(change, improved, residuals, temperatures)
     report = exchange(solves, solves, solves.solve, sparing=True)
     assert solves.asked == asked.split() and report.converged
@@ -174,8 +159,6 @@ def test_a_pressure_is_solved_for_roughly_while_temperatures_are_far_off(change,
     ([16.0 * 0.9**n for n in range(32)], 32, False),  # settles too late
 ])
 def test_rounds_that_do_not_settle_are_given_up(temperatures, rounds, settles):
-    from tehl_taichi.march.coupling import exchange
-
     solves = Solves(0.01, 1e-2, [1e-7] * 40, temperatures)
     assert exchange(solves, solves, solves.solve, sparing=True).converged == settles
     assert solves.asked.count("heat") == rounds
@@ -183,15 +166,11 @@ def test_rounds_that_do_not_settle_are_given_up(temperatures, rounds, settles):
 
 @pytest.mark.parametrize("most, rounds", [(8, 8), (math.inf, 32), (40, 32)])
 def test_a_start_has_fewer_rounds(most, rounds):
-    from tehl_taichi.march.coupling import exchange
-
     solves = Solves(0.01, 1e-2, [1e-7] * 40, [16.0 * 0.95**n for n in range(40)])
     assert not exchange(solves, solves, solves.solve, most).converged and solves.asked.count("heat") == rounds
 
 
 def test_a_start_solves_every_pressure_to_the_end():
-    from tehl_taichi.march.coupling import exchange
-
     solves = Solves(0.3, 1e-2, [1e-7, 1e-7], [30.0, 20.0, 0.01])
     assert exchange(solves, solves, solves.solve).converged
     assert solves.asked == "improve heat solve heat solve heat".split()

@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.engine.simd import W
+from tehl_taichi.heat import extrapolation, film_tables
+from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.march.extrapolation import StateExtrapolation, extrapolated
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.levels import Levels
+from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
 
 X = np.arange(129.0)
 TINY = 1e-37
@@ -23,10 +30,6 @@ class Pressure:
     """A table with a pressure, and guesses about it."""
 
     def __init__(self, rows, order, P, at=0.0, state=None):
-        from tehl_taichi.pressure.levels import Levels
-        from tehl_taichi.scene import scene
-        from tehl_taichi.scene.scales import Scales
-
         description = scene("pitch-line").replace(**{"thermal.on": False})
         self.levels = Levels(description, Scales.of(description), len(X) - 1, rows - 1)
         self.P = P
@@ -34,14 +37,10 @@ class Pressure:
 
     @property
     def P(self):
-        from tehl_taichi.pressure import fields
-
         return self.levels.get(fields.P)
 
     @P.setter
     def P(self, values):
-        from tehl_taichi.pressure import fields
-
         self.levels.put(fields.P, values)
 
     def accept(self, P, at):
@@ -50,8 +49,6 @@ class Pressure:
 
     def next(self, at):
         """The guess, whatever is in the table inside; the border keeps what it has."""
-        from tehl_taichi.pressure import fields
-
         self.P = np.where(self.levels.get(fields.MASK) > 0, 0.7, self.P)
         self.guess.put(at)
         return self.P
@@ -149,11 +146,6 @@ class Film:
     """Temperatures of a film that a test makes, with their last two states; changes: of its scene."""
 
     def __init__(self, **changes):
-        from tehl_taichi.heat.temperatures import FilmHeat
-        from tehl_taichi.pressure.levels import Levels
-        from tehl_taichi.scene import scene
-        from tehl_taichi.scene.scales import Scales
-
         gear = scene("gear").replace(**{"grid.nx": 128, "grid.ny": 32, **changes})
         scales = Scales.of(gear)
         self.heat = FilmHeat(Levels(gear, scales, 128, gear.rows, full=False), 1e-3 * scales.t)
@@ -171,8 +163,6 @@ class Film:
         self.heat.set_temperature(self.at(at))
 
     def keep(self):
-        from tehl_taichi.heat import film_tables
-
         for kind, last in ((film_tables.TNN, film_tables.TN), (film_tables.TN, film_tables.T)):
             self.heat.columns.put_nodes(kind, self.heat.columns.nodes(last))
         self.heat.T = self.heat.temperature()
@@ -186,8 +176,6 @@ class Film:
 @pytest.mark.parametrize("kept", [False, True])
 @pytest.mark.parametrize("at", [(1.0, 2.0, 3.0, 4.0), (1.7, 3.4, 5.1, 6.8)])
 def test_temperatures_are_foreseen_where_they_move_and_where_they_rest(taichi_cpu, kept, at):
-    from tehl_taichi.heat import extrapolation
-
     film = Film()
     guess = extrapolation.TemperatureExtrapolation(film.heat, 0.0, {})
     for step in at[:-1]:
@@ -204,8 +192,6 @@ def test_temperatures_are_foreseen_where_they_move_and_where_they_rest(taichi_cp
 
 
 def test_temperatures_of_a_single_row_move_by_what_differs_from_their_start(taichi_cpu):
-    from tehl_taichi.heat import extrapolation
-
     film = Film(**{"feature.length": np.inf})
     assert film.heat.levels.ny == 0
     resting = film.at(0.0)  # its pattern that moves stands still here, and another one passes it
@@ -225,8 +211,6 @@ def test_temperatures_of_a_single_row_move_by_what_differs_from_their_start(taic
 
 def test_temperatures_go_on_as_they_did_once_two_steps_are_known(taichi_cpu):
     """What is at rest grows by 0.2 K a step; the difference between a start and its first step is none in time."""
-    from tehl_taichi.heat import extrapolation
-
     film = Film()
     guess, where = extrapolation.TemperatureExtrapolation(film.heat, 0.0, {}), (0, 0, 95)
     for at, grows in ((1.0, 0.0), (2.0, 0.0), (3.0, 0.2)):
@@ -237,8 +221,6 @@ def test_temperatures_go_on_as_they_did_once_two_steps_are_known(taichi_cpu):
 
 
 def test_no_temperature_is_guessed_outside_what_was(taichi_cpu):
-    from tehl_taichi.heat import extrapolation
-
     film = Film()
     guess = extrapolation.TemperatureExtrapolation(film.heat, 0.0, {})
     for step in (1.0, 2.0, 3.0):
@@ -249,9 +231,6 @@ def test_no_temperature_is_guessed_outside_what_was(taichi_cpu):
 
 
 def test_rows_beyond_the_last_one_are_guessed_like_it(taichi_cpu):
-    from tehl_taichi.engine.simd import W
-    from tehl_taichi.heat import extrapolation, film_tables
-
     film = Film()
     guess = extrapolation.TemperatureExtrapolation(film.heat, 0.0, {})
     for step in (1.0, 2.0):

@@ -3,6 +3,9 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.march import isothermal_start, steady
+from tehl_taichi.march.steady import solve_steady
+from tehl_taichi.pressure import fields
 from tehl_taichi.scene import Scene, scene
 from tehl_taichi.scene.scales import Scales
 
@@ -12,8 +15,6 @@ GEAR = scene("gear").replace(**{"srr": 2.0, "thermal.on": False, "fatigue.on": F
 
 def start(height):
     """SteadyResult of the gear in pure sliding, with an asperity on the surface at rest and one that will pass."""
-    from tehl_taichi.march.steady import solve_steady
-
     data = GEAR.to_dict()
     passing, = data["feature"]
     data["feature"] = [passing, {**passing, "surface": "b", "height": height}]
@@ -22,8 +23,6 @@ def start(height):
 
 
 def film(height):
-    from tehl_taichi.pressure import fields
-
     return start(height).solver.levels.get(fields.H)
 
 
@@ -34,8 +33,6 @@ def test_a_feature_at_rest_that_is_most_of_the_film_rises_from_the_smooth_contac
 
 
 def test_rising_leads_to_what_a_start_at_once_finds(monkeypatch):
-    from tehl_taichi.march import isothermal_start, steady
-
     at_once = film(0.1e-6)
     monkeypatch.setattr(steady, "from_nothing", isothermal_start._with_rising_features)
     risen = film(0.1e-6)

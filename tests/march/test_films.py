@@ -6,6 +6,7 @@ The converged values are those of Newtonian films (rheology.law = newtonian); th
 import numpy as np
 import pytest
 
+from tehl_taichi.march.passage import march
 from tehl_taichi.scene import scene as built_in
 from tehl_taichi.scene.scales import Scales
 
@@ -17,8 +18,6 @@ def scene(name="gear"):
 
 
 def steady(description):
-    from tehl_taichi.march.passage import march
-
     return next(march(description))
 
 

@@ -3,13 +3,12 @@
 import pytest
 from commands import here as command
 
-from tehl_taichi.scene import scene
+from tehl_taichi.march.passage import march
+from tehl_taichi.scene import idle_keys, scene
 from tehl_taichi.scene.film_formula import NOTICED, heat_words
 
 
 def h_c(**changes):
-    from tehl_taichi.march.passage import march
-
     return next(march(scene("smooth-line").replace(**{"grid.nx": 128, **changes}))).scalars["h_c_m"]
 
 
@@ -33,8 +32,6 @@ def test_an_isothermal_film_that_is_asked_for_is_that_of_the_formulas():
 
 
 def test_the_temperature_of_a_film_without_slip_counts_in_its_density():
-    from tehl_taichi.scene import idle_keys
-
     gear = scene("gear").replace(srr=0)
     assert "oil.beta0" not in idle_keys.idle(gear) and "oil.beta0" in idle_keys.idle(gear.replace(**{"thermal.on": False}))
 

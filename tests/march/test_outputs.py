@@ -7,7 +7,7 @@ import pytest
 from small_stores import SMALL, shot, store
 from values.test_registry import hold
 
-from tehl_taichi.march import step_output
+from tehl_taichi.march import quantities, step_output
 from tehl_taichi.march.step_output import Field, Scalar, entries, fields_of, scalars_of
 from tehl_taichi.store.store import Store
 
@@ -56,8 +56,6 @@ def test_a_store_that_lost_an_output_is_damaged(tmp_path):
 
 def test_a_mean_of_a_passage_is_that_of_its_steps():
     """Entries after 1, 3 and 4 steps; the steady start is no step."""
-    from tehl_taichi.march import quantities
-
     mean = quantities.of_key("friction_coefficient_mean")
     assert mean.of(np.array([9.0, 0.01, 0.04, 0.03]), np.array([1, 2, 1])) == pytest.approx((0.01 + 2 * 0.04 + 0.03) / 4)
 
@@ -65,7 +63,6 @@ def test_a_mean_of_a_passage_is_that_of_its_steps():
 def test_a_new_number_of_the_summary_is_one_entry(taichi_cpu, tmp_path, monkeypatch):
     """With its error bar, its row in `tehl show`, its name and unit in reports."""
     import tehl_taichi as tehl
-    from tehl_taichi.march import quantities
     from tehl_taichi.report.run_tables import _meaning
     from tehl_taichi.runs.summary.summary_rows import summary_rows
 

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from tehl_taichi.errors import Error
+from tehl_taichi.march.accuracy.peaks import ripple
+from tehl_taichi.march.passage import NotConverged, Passage, march
 from tehl_taichi.scene import scene as built_in
 from tehl_taichi.scene.scales import Scales
 
@@ -20,9 +22,6 @@ def scene(name="gear"):
 def test_the_disturbance_of_a_furrow_travels_with_the_oil():
     """The film that the furrow (u_a = u_m/2) let in at the inlet moves ahead of it with u_m; its pressure does not ripple (it
     did by 1.2 % on steps of two cells, which nothing damped)."""
-    from tehl_taichi.march.accuracy.peaks import ripple
-    from tehl_taichi.march.passage import march
-
     description = scene("furrow-line")
     S, speeds = Scales.of(description), []
     steps = list(march(description))
@@ -39,8 +38,6 @@ def test_the_disturbance_of_a_furrow_travels_with_the_oil():
 
 
 def passage(**changes):
-    from tehl_taichi.march.passage import march
-
     return list(march(scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, **changes})))
 
 
@@ -61,8 +58,6 @@ def test_coarse_passage_conserves_and_leaves_the_steady_state_behind(law):
 
 def test_film_under_the_asperity_stays_what_it_was_let_in_as():
     """128 columns: within 5 % of the limit 0.142 um, and the same all along the contact."""
-    from tehl_taichi.march.passage import march
-
     steps = [s for s in march(scene("gear").replace(**{"grid.nx": 128, "grid.ny": 32})) if s.step]
     inside = [s for s in steps if abs(s.feature_x) < 0.2e-3]
     films = np.array([s.scalars["h_min_m"] for s in inside])
@@ -73,8 +68,6 @@ def test_film_under_the_asperity_stays_what_it_was_let_in_as():
 
 def test_snapshots_of_one_dimension_do_not_share_their_arrays():
     """A row needs no turning into columns: what a snapshot keeps must be its own all the same."""
-    from tehl_taichi.march.passage import march
-
     description = built_in("furrow-line").replace(**{"thermal.on": False, "grid.nx": 64, "time.steps": 2})
     shots = list(march(description))
     assert description.one_dimensional and len(shots) == 3
@@ -89,10 +82,9 @@ def test_touching_asperity_never_goes_negative():
     assert all(s.scalars["residual"] < 1e-6 for s in steps)
 
 
-def test_going_on_from_a_state_repeats_the_run():
-    from tehl_taichi.march.passage import march
-
-    description = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "time.steps": 12})
+@pytest.mark.parametrize("thermal", [False, True])
+def test_going_on_from_a_state_repeats_the_run(thermal):
+    description = scene("gear").replace(**{"thermal.on": thermal, "grid.nx": 64, "grid.ny": 16, "time.steps": 12})
     run = march(description)
     whole = [next(run) for _ in range(6)]
     state = whole[-1].state
@@ -102,12 +94,10 @@ def test_going_on_from_a_state_repeats_the_run():
     with pytest.raises(Error, match="state of step 4 is no longer available"):
         march(description, whole[4].state)
     for name, values in rest[-1].fields.items():
-        assert np.array_equal(values, whole[-1].fields[name])
+        assert np.array_equal(values, whole[-1].fields[name]), name
 
 
 def test_a_step_that_fails_is_taken_in_parts(monkeypatch):
-    from tehl_taichi.march.passage import Passage
-
     changes = {"time.steps": 60, "time.courant": 0.25}
     whole = passage(**changes)
     solve, calls = Passage._solve, []
@@ -127,8 +117,6 @@ def test_a_step_that_fails_is_taken_in_parts(monkeypatch):
 
 
 def test_a_step_that_never_converges_stops_with_the_reason(monkeypatch):
-    from tehl_taichi.march.passage import NotConverged, Passage
-
     solve = Passage._solve
 
     def failing(self):
@@ -146,8 +134,6 @@ BALL = {"grid.nx": 64, "grid.ny": 32, "time.steps": 12, "time.x_start": -1.5}
 
 def on_ball(y, **changes):
     """A bump on the ball after 12 steps, centred at y (m)."""
-    from tehl_taichi.march.passage import march
-
     description = scene("ridge-on-ball").replace(**{"feature.shape": "cosine", "feature.width": 120e-6, **BALL, **changes})
     return list(march(description.replace(**{"feature.y": y})))[-1]
 
@@ -162,8 +148,6 @@ def test_the_whole_domain_gives_the_same_as_the_half():
 
 def test_the_first_moment_of_the_whole_domain_has_the_mirrored_shear_across():
     """A feature that has not come yet changes nothing; pressure drives the oil out to both sides."""
-    from tehl_taichi.march.passage import march
-
     description = scene("ridge-on-ball").replace(**{"feature.shape": "cosine", "feature.width": 120e-6, **BALL,
                                                     "rheology.law": "limiting", "srr": 0.2, "thermal.on": False})
     half, whole = (next(iter(march(description.replace(**{"feature.y": y})))).fields for y in (0.0, 1e-15))
@@ -174,8 +158,6 @@ def test_the_first_moment_of_the_whole_domain_has_the_mirrored_shear_across():
 
 def test_a_feature_beside_the_axis_of_a_line_contact():
     """Two bumps at +y and -y are symmetric in themselves, and so is the whole domain."""
-    from tehl_taichi.march.passage import march
-
     data = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16, "time.steps": 24}).to_dict()
     data["feature"] = [{**data["feature"][0], "y": y} for y in (0.4 * 0.362e-3, -0.4 * 0.362e-3)]
     last = list(march(type(scene()).from_dict(data)))[-1]
@@ -202,8 +184,6 @@ def test_mirror_symmetry_of_friction():
 
 @pytest.mark.slow
 def test_isothermal_passage_at_the_default_grid():
-    from tehl_taichi.march.passage import march
-
     description = scene("gear")
     at = min(march(description), key=lambda s: abs(s.feature_x) if s.step else 1)
     assert at.scalars["p_max_Pa"] == pytest.approx(3.98e9, rel=0.003)
@@ -212,8 +192,6 @@ def test_isothermal_passage_at_the_default_grid():
 
 @pytest.mark.slow
 def test_second_order_in_time():
-    from tehl_taichi.march.passage import march
-
     ends = []
     for courant in (0.25, 0.125, 0.0625):
         description = scene("gear").replace(**{

@@ -8,8 +8,12 @@ import pytest
 
 import tehl_taichi as tehl
 from tehl_taichi.errors import NotConverged, SceneError
+from tehl_taichi.march import passage
+from tehl_taichi.march.accuracy.coarse_runs import scenes
+from tehl_taichi.march.steady import solve_steady
 from tehl_taichi.pressure import precision
-from tehl_taichi.scene import scene
+from tehl_taichi.scene import scene, scene_file
+from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
@@ -28,9 +32,6 @@ def gear(**changes):
 
 def solved(description):
     """(precision of the levels, that of their linear table, film) of the steady contact; the next one takes over its tables."""
-    from tehl_taichi.march.steady import solve_steady
-    from tehl_taichi.scene.scales import Scales
-
     result = solve_steady(description, Scales.of(description), description.grid.nx, 0)
     assert result.report.converged
     levels = result.solver.levels
@@ -104,9 +105,6 @@ def test_neither_imports_nor_their_order_fix_a_precision():
 
 
 def test_a_store_and_its_companions_keep_the_precision():
-    from tehl_taichi.march.accuracy.coarse_runs import scenes
-    from tehl_taichi.scene import scene_file
-
     asked = gear(**{"numerics.precision": "f64"})
     assert {run.numerics.precision for run in scenes(asked)[0]} == {"f64"}
     assert type(asked).from_dict(asked.to_dict()) == asked and 'precision = "f64"' in scene_file.dumps(asked)
@@ -152,8 +150,6 @@ def test_thermal_steps(linear):
 def single_fails(monkeypatch):
     """Every solve of a passage in single precision: a scene whose film is on its floor does it on some machines only, whose
     sums round the other way."""
-    from tehl_taichi.march import passage
-
     own = passage.carefully
 
     def carefully(solver, P):

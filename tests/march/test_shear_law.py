@@ -6,6 +6,12 @@ import numpy as np
 import pytest
 from one_column import carreau, column, limiting
 
+from tehl_taichi.laws.viscosity import ln_eta
+from tehl_taichi.march.passage import march
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.equations import Equations
+from tehl_taichi.pressure.isothermal import OneTemperature
+from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -22,10 +28,6 @@ def film(law="limiting", name="smooth-line", **changes):
 
 def equations_of(description, nx, ny=0):
     """The equations of an isothermal film, and their levels."""
-    from tehl_taichi.pressure.equations import Equations
-    from tehl_taichi.pressure.isothermal import OneTemperature
-    from tehl_taichi.pressure.levels import Levels
-
     levels = Levels(description, Scales.of(description), nx, ny)
     return Equations(levels, OneTemperature(levels)), levels
 
@@ -42,8 +44,6 @@ def scale(rheology, p):
 def flow_between(law, changes, p, h=1.5e-6):
     """Flux times cell of each face along x that the residual has of a pressure (GPa) in a film of h (m), in the units of the
     Reynolds equation; and its levels."""
-    from tehl_taichi.pressure import fields
-
     equations, levels = equations_of(film(law, **{"srr": 0.0, **changes}), 64)
     levels.put(fields.P, p[None, :] * 1e9 / levels.scales.p_H)
     levels.put(fields.H, h / levels.scales.h)
@@ -56,9 +56,6 @@ def flow_between(law, changes, p, h=1.5e-6):
 @pytest.mark.parametrize("law", QUICK_LAWS)
 def test_the_flow_along_the_sliding_is_that_of_columns(law):
     """What the residual has of a pressure beside that of a Newtonian film, face by face, against sums across a column each."""
-    from tehl_taichi.laws.viscosity import ln_eta
-    from tehl_taichi.pressure import fields
-
     x = np.linspace(-1.0, 1.0, 65)
     p, h = 0.85 + 0.25 * np.cos(2.2 * x), 0.6e-6
     newtonian = flow_between("newtonian", {"srr": -0.1}, p, h)[0]  # its tables are free for the next one
@@ -84,9 +81,6 @@ def test_the_flow_along_the_sliding_is_that_of_columns(law):
 @pytest.mark.parametrize("law", QUICK_LAWS)
 def test_friction_is_that_of_the_law(law):
     """Mean of the shear on both surfaces against sums across columns, from the stored pressure and film alone."""
-    from tehl_taichi.laws.viscosity import ln_eta
-    from tehl_taichi.march.passage import march
-
     description = film(law, srr=-0.5, **{"grid.nx": 64})
     shot = next(march(description))
     p, h = shot.fields["pressure"][:, 0], shot.fields["film"][:, 0]
@@ -117,8 +111,6 @@ def cold(description):
 @pytest.mark.parametrize("law", ["limiting", "eyring", "carreau"])
 def test_a_film_that_stays_cold_is_an_isothermal_one(law):
     """Steady and 12 steps into a passage, against the solver with temperatures; it warms by 0.1 K (carreau 0.6 K)."""
-    from tehl_taichi.march.passage import march
-
     description = film(law, "gear", **{"grid.nx": 64, "grid.ny": 16, "time.steps": 12, "oil.expansion": "never"})
     passages = [list(march(one)) for one in (description, cold(description))]  # not at once: by the same kernels
     assert [len(shots) for shots in passages] == [13, 13]
@@ -135,8 +127,6 @@ def test_a_film_that_stays_cold_is_an_isothermal_one(law):
 @pytest.mark.parametrize("changes, thins", [({"srr": 0.0}, False), ({"law": "newtonian", "srr": -0.5}, False),
                                             ({"srr": -0.5}, True)])
 def test_nothing_is_held_for_a_law_that_does_not_act(changes, thins):
-    from tehl_taichi.pressure import fields
-
     _, levels = equations_of(film(**changes), 64)
     assert levels.thins is thins
     assert levels.S.shape[0] == fields.NROWS
@@ -146,8 +136,6 @@ def test_nothing_is_held_for_a_law_that_does_not_act(changes, thins):
 
 def test_in_pure_rolling_a_smooth_film_is_nearly_newtonian():
     """Its pressure falls too slowly to strain the walls: where it strains them most, by 0.3 of the limit, 3 % more flows."""
-    from tehl_taichi.march.passage import march
-
     shots = [next(march(film(law, srr=0.0, **{"grid.nx": 64}))) for law in ("newtonian", "limiting")]
     newtonian, limited = (shot.fields["pressure"] for shot in shots)
     assert 0 < np.abs(newtonian - limited).max() < 2e-3 * newtonian.max()
@@ -158,8 +146,6 @@ def test_in_pure_rolling_a_smooth_film_is_nearly_newtonian():
 def test_a_steady_film_does_not_know_which_surface_slides():
     """With the same mean speed: the film of +SRR is that of -SRR; and it falls along the contact, as a plug that goes with the
     faster surface where the pressure drives it on, with the slower one behind the middle."""
-    from tehl_taichi.march.passage import march
-
     ahead, back = (next(march(film(srr=srr, **{"grid.nx": 64}))) for srr in (0.5, -0.5))
     h, x = ahead.fields["film"][:, 0], ahead.x / (ahead.x[-1] / 1.5)
     np.testing.assert_allclose(h, back.fields["film"][:, 0], rtol=1e-5)
@@ -170,8 +156,6 @@ def test_a_steady_film_does_not_know_which_surface_slides():
 def test_no_wall_of_a_run_holds_more_than_the_limit():
     """Sheared by sliding and by a steep pressure at once, along and across, with and without temperatures, where surfaces touch
     too."""
-    from tehl_taichi.march.passage import march
-
     for thermal in (False, True):
         description = film(name="touching-asperity", srr=0.3, **{"grid.nx": 64, "grid.ny": 16, "time.steps": 12,
                                                                  "thermal.on": thermal})
@@ -217,8 +201,6 @@ def test_walls_bear_no_more_than_the_shear_limit():
 def test_the_exit_of_a_dent_in_rolling_is_held_by_the_walls():
     """1-D, 512 columns: without the bound a frozen front has 3.63 GPa here, and a third more on twice the columns; with it
     3.26, and 3.57, 3.70 on 1024 and 2048."""
-    from tehl_taichi.march.passage import march
-
     description = scene("gear").replace(**{"thermal.on": False, "srr": 0.0, "height": -1.5e-6, "feature.length": np.inf,
                                            "grid.nx": 512, "grid.ny": 64, "fatigue.on": False})
     rheology, largest, strain = description.rheology, 0.0, 0.0
@@ -234,8 +216,6 @@ def test_the_exit_of_a_dent_in_rolling_is_held_by_the_walls():
 def test_a_sheared_film_flows_more_easily():
     """Newtonian and limiting pressures differ where the film slips; its thickness in the middle hardly: that is made in the
     inlet."""
-    from tehl_taichi.march.passage import march
-
     thick, thin = (next(march(film(law, srr=-0.5, **{"grid.nx": 64}))) for law in ("newtonian", "limiting"))
     assert thin.scalars["h_c_m"] == pytest.approx(thick.scalars["h_c_m"], rel=5e-3)
     assert np.abs(thin.fields["pressure"] - thick.fields["pressure"]).max() > 1e-3 * thick.scalars["p_max_Pa"]
@@ -245,8 +225,6 @@ def test_a_sheared_film_flows_more_easily():
 def test_a_start_with_much_slip_does_not_end_on_the_floor():
     """SRR 1.7, 3.6 GPa, 117 deg C on 64 columns: sheared from the first guess on, all of the contact would touch. Frozen oil
     goes with the faster surface where the pressure drives it on, with the slower one behind: its film is thinner."""
-    from tehl_taichi.march.passage import march
-
     shot = next(march(film(hertz_pressure=3.6e9, srr=1.7, speed=15.3, temperature=117.0, **{"grid.nx": 64})))
     assert not shot.fields["contact"].any() and shot.scalars["newton"] < 25  # 20; its neighbours 3 to 29
     newtonian = next(march(film("newtonian", hertz_pressure=3.6e9, srr=1.7, speed=15.3, temperature=117.0, **{"grid.nx": 64})))

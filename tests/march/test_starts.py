@@ -1,11 +1,26 @@
 """Thermal starts: what counts as settled, what is refused, and what the reasons say."""
 
 import math
+from dataclasses import replace
+from types import SimpleNamespace
+from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
+from heat.test_thermal import film as film_of
+from heat.test_thermal import thermal
 
+from tehl_taichi.errors import NotConverged
+from tehl_taichi.heat.energy import HOT, LIGHT
+from tehl_taichi.march import alternating_start, isothermal_start, pseudo_transient, steady
+from tehl_taichi.march.alternating_start import FLUTTER, SETTLED, _stuck
+from tehl_taichi.march.failure import _too_high
+from tehl_taichi.march.passage import march
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.isothermal import OneTemperature
+from tehl_taichi.pressure.newton import PressureSolver, SolveReport
 from tehl_taichi.scene import scene, thin_film
+from tehl_taichi.scene.film_formula import thinnest_film
 from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
@@ -20,7 +35,7 @@ LOADED = np.array([[True, False]])
 
 
 def test_an_oscillation_is_not_settled():
-    from tehl_taichi.march.alternating_start import FLUTTER, SETTLED, remaining_change
+    from tehl_taichi.march.alternating_start import remaining_change
 
     swing = [100.0 + 15 * (-1) ** n for n in range(16)]
     assert remaining_change(blocks(*swing), LOADED) > FLUTTER
@@ -33,15 +48,10 @@ def test_an_oscillation_is_not_settled():
 
 
 def film(**changes):
-    from heat.test_thermal import film, thermal
-
-    return film(thermal(**changes), 64)
+    return film_of(thermal(**changes), 64)
 
 
 def test_held_temperatures_and_failed_columns_are_no_state():
-    from tehl_taichi.heat.energy import HOT, LIGHT
-    from tehl_taichi.pressure import fields
-
     heat, levels = film()
     levels.put(fields.P, 2 * LIGHT)
     heat.start()
@@ -55,9 +65,6 @@ def test_held_temperatures_and_failed_columns_are_no_state():
 
 def test_what_carries_nothing_may_be_held():
     """Eddies of the inlet, in a gap that the nodes do not resolve."""
-    from tehl_taichi.heat.energy import HOT, LIGHT
-    from tehl_taichi.pressure import fields
-
     heat, levels = film()
     levels.put(fields.P, 0.5 * LIGHT)
     heat.start()
@@ -69,8 +76,6 @@ def test_what_carries_nothing_may_be_held():
 
 def test_the_reason_names_what_failed():
     from tehl_taichi.march.failure import not_converged
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.newton import PressureSolver, SolveReport
 
     heat, levels = film()
     solver = PressureSolver(levels, heat)
@@ -101,7 +106,6 @@ def test_the_reason_names_what_failed():
 
 def test_a_border_that_does_not_settle_is_the_reason_where_the_equations_hold():
     from tehl_taichi.march.failure import not_converged
-    from tehl_taichi.pressure.newton import PressureSolver, SolveReport
 
     heat, levels = film()
     text = str(not_converged(PressureSolver(levels, heat), None, SolveReport(6e-15, 0.0, 4e-13, 30, 9, False), "the start"))
@@ -110,16 +114,12 @@ def test_a_border_that_does_not_settle_is_the_reason_where_the_equations_hold():
 
 @pytest.mark.parametrize("height, names", [(2e-6, False), (8e-6, True)])
 def test_a_feature_that_no_film_carries_is_named_where_surfaces_touch(height, names):
-    from tehl_taichi.march.failure import _too_high
-
     said = _too_high(scene("gear").replace(**{"height": height, "width": 1e-3}))
     assert bool(said) == names and ("a feature rises 8e-06 m where the film formula has 4.4e-07 m" in said) == names
 
 
 def forced_in_time(monkeypatch):
     """By turns, nothing settles any more."""
-    from tehl_taichi.march import steady
-
     by_turns = steady.find_steady
 
     def failing(*args):
@@ -131,10 +131,6 @@ def forced_in_time(monkeypatch):
 
 
 def first(name="smooth-line", **changes):
-    from heat.test_thermal import thermal
-
-    from tehl_taichi.march.passage import march
-
     return next(march(thermal(name, **{"grid.nx": 64, "grid.ny": 16, "srr": -0.2, **changes})))
 
 
@@ -150,9 +146,6 @@ def test_in_time_the_same_state_as_by_turns(monkeypatch):
 
 def test_walls_yield_in_the_steady_equations_but_not_on_the_way(monkeypatch):
     """Heaps of oil of a march at 20 deg C would fall by GPa a cell, and stop it; its last blocks have those of the scene."""
-    from tehl_taichi.march import pseudo_transient
-    from tehl_taichi.pressure import fields
-
     forced_in_time(monkeypatch)
     seen = {"exchange": [], "solve_again": []}
     for name, walls in seen.items():
@@ -175,11 +168,6 @@ def test_walls_yield_in_the_steady_equations_but_not_on_the_way(monkeypatch):
 
 def test_what_moves_in_time_is_not_settled(monkeypatch):
     """The passage starts from the moving state and says so, a steady scene stops."""
-    from heat.test_thermal import thermal
-
-    from tehl_taichi.errors import NotConverged
-    from tehl_taichi.march import pseudo_transient
-    from tehl_taichi.march.passage import march
 
     forced_in_time(monkeypatch)
     monkeypatch.setattr(pseudo_transient, "BLOCKS", 1)
@@ -196,10 +184,6 @@ def test_what_moves_in_time_is_not_settled(monkeypatch):
 
 @pytest.mark.slow
 def test_a_march_that_is_lost_is_no_state(monkeypatch):
-    from tehl_taichi.errors import NotConverged
-    from tehl_taichi.march import pseudo_transient
-    from tehl_taichi.pressure.newton import SolveReport
-
     forced_in_time(monkeypatch)
     monkeypatch.setattr(pseudo_transient, "exchange", lambda *_: SolveReport(1e-9, 0.0, 1e-9, 3, 9, False))
     with pytest.raises(NotConverged, match="no further time step converges"):
@@ -210,8 +194,6 @@ def test_a_march_that_is_lost_is_no_state(monkeypatch):
 def test_a_slip_that_no_step_follows_grows_more_slowly(monkeypatch):
     """On the finest grid, from the same cold start, after the coarser grid was lost: the state of a march that was not lost,
     but for the way that it came."""
-    from tehl_taichi.march import pseudo_transient
-
     forced_in_time(monkeypatch)
     quick, steps, slip_in = first(), [], pseudo_transient.PseudoTransient.slip_in
 
@@ -233,8 +215,6 @@ def test_a_slip_that_no_step_follows_grows_more_slowly(monkeypatch):
 
 
 def test_what_took_long_by_turns_is_checked_in_time(monkeypatch):
-    from tehl_taichi.march import alternating_start, steady
-
     checks, check = [], steady.check
     monkeypatch.setattr(steady, "check", lambda *args: checks.append(check(*args)) or checks[-1])
     quick = first()
@@ -247,7 +227,6 @@ def test_what_took_long_by_turns_is_checked_in_time(monkeypatch):
 
 def touching(description, nx):
     from tehl_taichi.march.steady import solve_steady
-    from tehl_taichi.pressure import fields
 
     found = solve_steady(description.replace(**{"grid.nx": nx, "grid.ny": 16}), Scales.of(description), nx, 0)
     return found.report.converged, int(found.solver.levels.get(fields.TOUCH).sum())
@@ -267,9 +246,6 @@ def test_the_side_lobes_of_a_point_contact_are_its_thinnest_film(ratio):
     """Formula against computed films on 64 columns; on 256 they are 0.1136, 0.2127 and 0.3056 um."""
     from tehl_taichi.profiles.stability_scenes import edited
 
-    from tehl_taichi.march.passage import march
-    from tehl_taichi.scene.film_formula import thinnest_film
-
     point = edited("ridge-on-ball", {"contact": {"kind": "elliptic", "radius_y": ratio * 12.7e-3, "hertz_pressure": 0.54e9},
                                      "speed": 0.05, "srr": 0.0, "time.steady_only": True, "grid.nx": 64, "grid.ny": 32})
     lowest = next(march(point)).fields["film"].min()
@@ -279,8 +255,6 @@ def test_the_side_lobes_of_a_point_contact_are_its_thinnest_film(ratio):
 
 
 def test_a_grid_on_which_the_surfaces_touch_is_no_start_for_temperatures(monkeypatch):
-    from tehl_taichi.march import steady
-
     sizes, settle = [], steady.find_steady
     monkeypatch.setattr(steady, "find_steady", lambda levels, *rest: sizes.append(levels.nx) or settle(levels, *rest))
     shot = first(speed=0.3, srr=-0.5, **{"grid.nx": 128})
@@ -290,8 +264,6 @@ def test_a_grid_on_which_the_surfaces_touch_is_no_start_for_temperatures(monkeyp
 
 def test_temperatures_of_a_grid_are_no_start_for_the_grid_after_next(monkeypatch):
     """Where a grid between them finds no film of cold oil (mtm at 40 deg C and SRR 0.45, 96x24 of 192x48 cells)."""
-    from tehl_taichi.march import steady
-
     usual, solve, failed = first(**{"grid.nx": 128}), steady._from_coarser, []
 
     def failing(solver, *state):
@@ -310,8 +282,6 @@ def test_temperatures_of_a_grid_are_no_start_for_the_grid_after_next(monkeypatch
 
 def test_a_march_that_flutters_about_one_state_is_at_rest():
     """As by turns: runs of blocks are compared, not only two blocks that differ by 0.3 K for ever."""
-    from types import SimpleNamespace
-
     from tehl_taichi.march.pseudo_transient import PseudoTransient
 
     march = PseudoTransient.__new__(PseudoTransient)
@@ -330,8 +300,6 @@ def test_a_march_that_flutters_about_one_state_is_at_rest():
 
 
 def settled(**changes):
-    from tehl_taichi.march.passage import march
-
     gear = {"time.steady_only": True, "grid.ny": 16, "thermal.on": True}
     return next(march(scene("gear").replace(**{**gear, **changes})))
 
@@ -362,7 +330,6 @@ def test_a_thick_film_starts_beside_a_short_inlet(changes):
 def test_a_circle_starts_where_its_surfaces_slip_fast():
     """Between a third of the slip and all of it the frozen film yields: Newton finds it by time steps only."""
     from tehl_taichi.march.steady import solve_steady
-    from tehl_taichi.pressure import fields
 
     sliding = scene("mtm").replace(**{"srr": 2.0, "thermal.on": False, "grid.nx": 64, "grid.ny": 16})
     found = solve_steady(sliding, Scales.of(sliding), 64, 16)
@@ -376,8 +343,6 @@ def test_a_thin_film_comes_down_from_a_high_speed():
     speeds the surfaces touch over the contact (until 0.5.3)."""
     from tehl_taichi.profiles import stability, stability_scenes
 
-    from tehl_taichi.march.passage import march
-
     drawn = stability.carried(stability.starts(stability_scenes.random_cases(6, 2)))["random 2-5 line"]
     assert drawn.grid.nx == 512 and thin_film.resolved_ratio(drawn) > 1
     shot = next(march(drawn.replace(**{"thermal.on": False})))
@@ -389,11 +354,6 @@ def test_a_thin_film_comes_down_from_a_high_speed():
     ([(0.1, 1.0)], 0, True), ([(1.4, 1.0), (0.03, 1.0)], 1, True), ([(1.4, 1.0), (1.4, 1.0)], 1, False)])
 def test_what_does_not_rest_by_whole_cells_is_marched_by_shorter_steps(monkeypatch, changes, shorter, converged):
     """Once; a start that rests by the usual steps has no other ones."""
-    from types import SimpleNamespace
-
-    from tehl_taichi.march import pseudo_transient
-    from tehl_taichi.pressure.newton import SolveReport
-
     class March(pseudo_transient.PseudoTransient):
         def __init__(self, solver, heat):
             self.heat, self.dt, self.transit, self.lost, self.report = heat, 1.0, 100.0, False, SolveReport(0, 0, 0, 1, 1, True)
@@ -420,8 +380,6 @@ def test_what_does_not_rest_by_whole_cells_is_marched_by_shorter_steps(monkeypat
 @pytest.mark.parametrize("lost, starts", [((), ["warm"]), ((0.0,), ["warm", 0.5]), ((0.0, 0.5), ["warm", 0.5, 2.0])])
 def test_a_march_begins_at_the_temperatures_of_a_coarser_grid(monkeypatch, lost, starts):
     """From cold oil only where that is lost, on the finest grid alone."""
-    from tehl_taichi.march import pseudo_transient
-
     class March(pseudo_transient.PseudoTransient):
         def __init__(self, solver, heat):
             self.lost, self.onset, self.dt, self.transit = False, 0.0, 1.0, 1.0
@@ -443,8 +401,6 @@ def test_a_march_begins_at_the_temperatures_of_a_coarser_grid(monkeypatch, lost,
         pseudo_transient.march_to_rest(None, heat, None, 0.0, coarse, finest)
         return [one for one in seen if one != "cold"]
 
-    from types import SimpleNamespace
-
     for name, stand_in in (("PseudoTransient", March), ("put", lambda *_: None), ("_judged", lambda *_: None)):
         monkeypatch.setattr(pseudo_transient, name, stand_in)
     assert begun(np.zeros(1), True) == starts and begun(np.zeros(1), False) == ["warm"]
@@ -455,8 +411,6 @@ def test_a_march_begins_at_the_temperatures_of_a_coarser_grid(monkeypatch, lost,
 def test_strips_of_molten_oil_that_move_with_a_surface_come_to_rest():
     """Flank C, mineral-vg320, B+: oil that slips along the slower wall moves by a cell a step, and with it strips of 172 and
     192 deg C, one a cell. They end once steps are shorter; until then the start was refused (1.4 K)."""
-    from tehl_taichi.march.passage import march
-
     made = flank_position("B+", **{"oil.name": "mineral-vg320"})
     found = next(march(made))
     assert not found.unsettled and found.scalars["mass_error"] < 1e-6
@@ -467,10 +421,6 @@ def test_strips_of_molten_oil_that_move_with_a_surface_come_to_rest():
 def test_what_flutters_for_long_is_at_rest_while_it_hardly_does(monkeypatch, change, held, blocks):
     """Of every block after the first thirty, not of the last one alone: on 192 columns that one is 1.1 K off, others 0.07. No
     block in which columns were held is a state."""
-    from types import SimpleNamespace
-
-    from tehl_taichi.march import pseudo_transient
-
     monkeypatch.setattr(pseudo_transient, "remaining_change", lambda *_: change)
     done, heat = [], SimpleNamespace(T=np.zeros(1), sound=True)
     together = SimpleNamespace(heat=heat, lost=False, held=held, P=np.ones(1), _block_steps=54, block=done.append)
@@ -480,10 +430,6 @@ def test_what_flutters_for_long_is_at_rest_while_it_hardly_does(monkeypatch, cha
 @pytest.mark.parametrize("worth, change", [(True, math.inf), (False, math.inf), (None, 0.0)])
 def test_a_start_holds_columns_without_a_solution_for_a_step(monkeypatch, worth, change):
     """As a passage does, once a step is as short as it may be; the block with it is none that settles. None: no step fails."""
-    from unittest.mock import MagicMock
-
-    from tehl_taichi.march import pseudo_transient
-
     heat = MagicMock(T=np.zeros((1, 1, 1)), holding=False)
 
     def hold():
@@ -524,11 +470,7 @@ def test_a_cold_inlet_settles_where_a_quick_slip_is_lost():
 @pytest.mark.slow
 def test_a_march_from_nothing_forgets_what_the_bodies_remember(monkeypatch):
     """It begins with cold bodies and without an older step, whatever went before."""
-    from tehl_taichi.march import pseudo_transient
     from tehl_taichi.march.isothermal_start import from_nothing
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.isothermal import OneTemperature
-    from tehl_taichi.pressure.newton import PressureSolver, SolveReport
 
     def told():
         return float(np.abs(heat.bodies.memory()).max()), heat.dt_before, float(np.abs(heat.T - inlet).max())
@@ -552,9 +494,6 @@ def test_a_march_from_nothing_forgets_what_the_bodies_remember(monkeypatch):
 @pytest.mark.parametrize("converged, looks", [(False, 0), (True, 1)])
 def test_a_grid_is_looked_at_once_and_only_where_it_converged(monkeypatch, converged, looks):
     """What a start that failed has left may be no numbers."""
-    from types import SimpleNamespace
-
-    from tehl_taichi.errors import NotConverged
     from tehl_taichi.march import start
 
     seen, report = [], SimpleNamespace(converged=converged)
@@ -586,8 +525,6 @@ def test_a_film_too_thin_for_a_grid_comes_to_the_next_in_time(taichi_cpu, monkey
     """12 nm at 2.2 GPa: no way from nothing leads to it on 1024 columns, nor does Newton alone from 512."""
     from tehl_taichi.profiles import stability, stability_scenes
 
-    from tehl_taichi.march import steady
-
     begun, from_nothing = [], steady.from_nothing
     monkeypatch.setattr(steady, "from_nothing", lambda solver: begun.append(solver.levels.dx) or from_nothing(solver))
     drawn = stability_scenes.random_cases(35, 42)
@@ -610,9 +547,6 @@ def test_stiff_oil_marches_on_a_coarse_grid_and_goes_on_from_its_temperatures(mo
     """Flank C, B+, mineral-vg320 at 40 deg C: where alternating finds no state, slip grows from cold oil on 32 columns alone,
     and 64 columns march from those temperatures. 128 columns have the same film, 1.894 um. (From cold oil on every grid 64
     columns rest at another state, 2.23 um.)"""
-    from tehl_taichi.march import pseudo_transient, steady
-    from tehl_taichi.march.passage import march
-
     marched, onsets = [], []
     to_rest, slip_in = steady.march_to_rest, pseudo_transient.PseudoTransient.slip_in
 
@@ -633,8 +567,6 @@ def test_stiff_oil_marches_on_a_coarse_grid_and_goes_on_from_its_temperatures(mo
 
 def test_blocks_that_flutter_may_settle_yet():
     """A drawn line whose eighth block differs by 0.2 K has 0.8 K at the thirteenth and settles at the 24th."""
-    from tehl_taichi.march.alternating_start import _stuck
-
     flutter = [19.0, 4.8, 2.3, 1.4, 0.9, 0.7, 0.5, 0.2, *[0.6] * 12]
     assert not any(_stuck(flutter[:n]) for n in range(len(flutter)))
     assert _stuck([10 * change for change in flutter])
@@ -643,9 +575,6 @@ def test_blocks_that_flutter_may_settle_yet():
 @pytest.mark.parametrize("ratio", [1.0, 0.999, 0.85])
 def test_blocks_that_jump_without_progress_end_early(monkeypatch, ratio):
     """A ball on a disc, mtm at SRR 1, jumps by 10 to 20 K from block to block; 40 of them took a minute."""
-    from tehl_taichi.march import alternating_start
-    from tehl_taichi.pressure.newton import SolveReport
-
     (heat, levels), done = film(), []
     heat.start()
     monkeypatch.setattr(alternating_start, "_march", lambda *_: heat.T)
@@ -658,11 +587,6 @@ def test_blocks_that_jump_without_progress_end_early(monkeypatch, ratio):
 
 def test_a_pressure_that_newton_does_not_find_again_comes_by_time_steps(monkeypatch):
     """From the Hertz pressure at other speeds it takes ten times as long (mtm at SRR 1: 95 of 105 s)."""
-    from dataclasses import replace
-
-    from tehl_taichi.march import isothermal_start, steady
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.scene.scales import Scales
 
     line = scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False})
     solver = steady.solve_steady(line, Scales.of(line), 64, 0).solver

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from direct_deflection import deflected
 
+from tehl_taichi.pressure import influence
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -11,8 +12,6 @@ pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
 
 def test_influence_coefficients_against_quadrature():
-    from tehl_taichi.pressure import influence
-
     nodes, weights = np.polynomial.legendre.leggauss(40)
     dx, dy = 0.1, 0.07
     x, y = 3 * dx + dx / 2 * nodes, 2 * dy + dy / 2 * nodes
@@ -27,8 +26,6 @@ COMPLIANCE = {"line": 1 / (2 * np.pi), "point": 2 / np.pi**2}
 
 def by_matrix(P, dx, dy, kind="line", mirrored=True):
     """Deflection of P (ny+1, nx+1) by the matrix of the coarsest grid; the pressure vanishes where it enters."""
-    from tehl_taichi.pressure import influence
-
     P[:, 0] = 0.0
     key = P.shape[1] - 1, P.shape[0] - 1, dx, dy, COMPLIANCE[kind], kind == "line", mirrored
     return (influence.matrix(*key) @ P.ravel()).reshape(P.shape)
@@ -43,8 +40,6 @@ def both(P, dx, dy, kind="line", mirrored=True):
 
 @pytest.mark.parametrize("kind", ["line", "point"])
 def test_deflection_is_the_direct_sum(kind):
-    from tehl_taichi.pressure import influence
-
     nx, ny, dx, dy = 16, 8, 0.2, 0.15
     p = np.random.default_rng(1).random((9, 17))
     found = both(p, dx, dy, kind)
@@ -72,8 +67,6 @@ def test_hertz_pressure_deflects_to_a_parabola():
 
 
 def test_plain_deflection_is_the_direct_sum():
-    from tehl_taichi.pressure import influence
-
     nx, ny, dx, dy = 16, 8, 0.2, 0.15
     p = np.random.default_rng(2).random((9, 17))
     K = influence.rectangle(nx, ny, dx, dy, COMPLIANCE["point"])

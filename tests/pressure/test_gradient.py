@@ -3,6 +3,14 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.simd import LaneBlock, Table, V, W, block_at, tile, tiles
+from tehl_taichi.heat.chebyshev import ChebyshevNodes
+from tehl_taichi.heat.energy import one_sided, turn_upstream
+from tehl_taichi.heat.node_table import Nodes
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.gradient import limited_gradient
+from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -13,19 +21,12 @@ FACE = (THIN - 1) / np.log(THIN)  # logarithmic mean of the mobilities on both s
 
 @pytest.fixture(scope="module")
 def levels():
-    from tehl_taichi.pressure.levels import Levels
-
     description = scene("smooth-line").replace(**{"thermal.on": False})
     return Levels(description, Scales.of(description), 32, 16)
 
 
 def gradients(levels, P, thin=None):
     """(dP/dx, dP/dy) per cell (ny+1, nx+1) of oil of one mobility, at the node `thin` = (j, i) THIN times that."""
-    from tehl_taichi.engine.language import ti
-    from tehl_taichi.engine.simd import Table, W, block_at, tile, tiles
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.gradient import limited_gradient
-
     @ti.kernel
     def collect(S: ti.template(), G: Table, along: Table, across: Table):
         nx, ny = int(G[0, 1]), int(G[0, 2])
@@ -70,12 +71,6 @@ def test_thin_oil_needs_no_more_than_what_brings_it_the_flow(levels, axis):
 
 def test_slopes_across_the_film_come_from_where_the_flow_does():
     """Polynomials where conduction rules, the node behind where the flow does, a part of both between."""
-    from tehl_taichi.engine.language import ti
-    from tehl_taichi.engine.simd import LaneBlock, V, W
-    from tehl_taichi.heat.chebyshev import ChebyshevNodes
-    from tehl_taichi.heat.energy import one_sided, turn_upstream
-    from tehl_taichi.heat.node_table import Nodes
-
     Z, X = (ti.Vector.field(W, ti.f64, shape=(1, size)) for size in (5, 25))
 
     @ti.kernel

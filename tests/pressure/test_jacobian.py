@@ -3,6 +3,11 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.isothermal import OneTemperature
+from tehl_taichi.pressure.levels import Levels
+from tehl_taichi.pressure.newton import ROW_CAP, PressureSolver
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -10,12 +15,6 @@ from tehl_taichi.scene.scales import Scales
 def mismatch(description, warm=None, step=1e-5):
     """Largest difference of Jacobian times change and difference of residuals, over the largest of these, for changes of the
     pressure in a few long and short waves and of the rigid approach; with a time derivative in a moving frame."""
-    from tehl_taichi.heat.temperatures import FilmHeat
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.isothermal import OneTemperature
-    from tehl_taichi.pressure.levels import Levels
-    from tehl_taichi.pressure.newton import ROW_CAP, PressureSolver
-
     levels = Levels(description, Scales.of(description), 64, 16)
     film = OneTemperature(levels) if warm is None else FilmHeat(levels, 1e-6)
     solver, X, Y = PressureSolver(levels, film), levels.X[None, :], levels.Y[:, None]
@@ -92,11 +91,6 @@ def test_walls_that_yield_to_the_pressure(taichi_cpu, law, step, srr):
 def diagonals(turned):
     """The diagonal of a line whose walls switch: by tangents, and after a linearisation of the same state, or (turned) of the
     one with the opposite ripple."""
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.isothermal import OneTemperature
-    from tehl_taichi.pressure.levels import Levels
-    from tehl_taichi.pressure.newton import PressureSolver
-
     description = scene("smooth-line").replace(**{"thermal.on": False, "srr": 0.12, "grid.nx": 64})
     levels = Levels(description, Scales.of(description), 64, 0)
     solver, X = PressureSolver(levels, OneTemperature(levels)), levels.X[None, :]

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from pressure.linear.test_solver import pressed
 
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.newton import SAME_SLOPES, SMALL_CHANGE
+
 
 @pytest.mark.parametrize("keeps, evaluated", [(True, 0), (False, 1)])
 def test_slopes_are_kept_from_the_first_solve_with_a_small_change_on(taichi_cpu, monkeypatch, keeps, evaluated):
     """Also where the step began with a large one. A solve beside its solution takes one Newton step."""
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.newton import SAME_SLOPES, SMALL_CHANGE
-
     solver = pressed("f64", "jacobi")
     assert solver.solve().converged
     levels, slopes, seen = solver.levels, solver.equations.film.slopes, []

@@ -3,6 +3,17 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.simd import Table
+from tehl_taichi.laws.density import rho_ratio
+from tehl_taichi.laws.viscosity import ln_eta
+from tehl_taichi.march.isothermal_start import from_nothing
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.equations import Equations
+from tehl_taichi.pressure.fluxes import wall_x, wall_y
+from tehl_taichi.pressure.isothermal import OneTemperature
+from tehl_taichi.pressure.levels import Levels
+from tehl_taichi.pressure.newton import PressureSolver
 from tehl_taichi.scene import scene as built_in
 from tehl_taichi.scene.scales import Scales
 
@@ -22,9 +33,6 @@ def manufactured(X, Y):
 def reynolds_operator(levels, X, Y, rate):
     """d(rho H)/dX + rate rho H - div(eps grad P) of the manufactured fields, by differences with a step of 1e-3 and
     Richardson's extrapolation: good to 1e-7."""
-    from tehl_taichi.laws.density import rho_ratio
-    from tehl_taichi.laws.viscosity import ln_eta
-
     oil, p_H = levels.scene.oil, levels.scales.p_H
     ln_eta0, inlet = levels.conditions["ln_eta0"], levels.conditions["inlet"]
 
@@ -53,11 +61,6 @@ def reynolds_operator(levels, X, Y, rate):
 
 def test_manufactured_solution_of_the_reynolds_operator():
     """Of the inner rows: the outermost one stands for all beyond, where nothing changes along y any more."""
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.equations import Equations
-    from tehl_taichi.pressure.isothermal import OneTemperature
-    from tehl_taichi.pressure.levels import Levels
-
     description = scene("smooth-line").replace(**{"contact.hertz_pressure": 0.2e9, "speed": 0.5})
     errors = []
     for cells in (32, 64, 128):
@@ -79,12 +82,6 @@ def test_manufactured_solution_of_the_reynolds_operator():
 def test_lanes_beyond_the_last_row_count_nothing():
     """What laws make of their stale pressures need not be a number: a start at 20 deg C had a mass error of nan by it, on some
     machines."""
-    from tehl_taichi.march.isothermal_start import from_nothing
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.isothermal import OneTemperature
-    from tehl_taichi.pressure.levels import Levels
-    from tehl_taichi.pressure.newton import PressureSolver
-
     line = scene("smooth-line").replace(**{"grid.nx": 32})
     levels = Levels(line, Scales.of(line), 32, 0)
     levels.put(fields.GAP0, levels.smooth_gap())
@@ -100,11 +97,6 @@ def test_lanes_beyond_the_last_row_count_nothing():
 
 def test_the_mass_error_of_a_line_does_not_depend_on_its_rows():
     """Outflow and flux have equal weights of the rows, in one row, a half and a whole domain."""
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.isothermal import OneTemperature
-    from tehl_taichi.pressure.levels import Levels
-    from tehl_taichi.pressure.newton import PressureSolver
-
     line, found = scene("smooth-line"), []
     for ny, full in ((0, False), (8, False), (8, True)):
         levels = Levels(line, Scales.of(line), 64, ny, full)
@@ -121,11 +113,6 @@ def test_the_mass_error_of_a_line_does_not_depend_on_its_rows():
 
 def test_walls_carry_the_stress_of_the_pressure_gradient_along_and_across():
     """0.5 h dp/dx and 0.5 h dp/dy of a film H = 1, where P changes by 1 from node to node; cells are not square."""
-    from tehl_taichi.engine.language import ti
-    from tehl_taichi.engine.simd import Table
-    from tehl_taichi.pressure.fluxes import wall_x, wall_y
-    from tehl_taichi.pressure.levels import Levels
-
     description = scene()
     s = Scales.of(description)
     levels, found = Levels(description, s, 64, 8), np.zeros(4)

@@ -3,8 +3,14 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.equations import Equations
 from tehl_taichi.pressure.history import carried
+from tehl_taichi.pressure.isothermal import OneTemperature
+from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.storage_term import Storage, bdf, third_order
+from tehl_taichi.scene import scene
+from tehl_taichi.scene.scales import Scales
 
 
 @pytest.mark.parametrize("lengths", [[0.3], [0.3, 0.2], [0.3, 0.2, 0.5]])
@@ -23,18 +29,12 @@ def test_backward_differences_of_equal_steps():
 
 def columns(nx, ny=0):
     """Levels of so many cells."""
-    from tehl_taichi.pressure.levels import Levels
-    from tehl_taichi.scene import scene
-    from tehl_taichi.scene.scales import Scales
-
     description = scene("pitch-line" if ny else "smooth-line").replace(**{"thermal.on": False})
     return Levels(description, Scales.of(description), nx, ny)
 
 
 def followed(old, lengths, cells, start=0.0):
     """What the storage term takes for the old states (newest first), a step of so many cells after the newest."""
-    from tehl_taichi.pressure import fields
-
     levels = columns(len(old[0][0]) - 1, len(old[0]) - 1)
     rest = start + 0 * old[0]
     storage = Storage(levels, {"mass": [rest, *old], "lengths": [length * levels.dx for length in lengths]})
@@ -90,8 +90,6 @@ def test_old_states_go_their_ways_and_what_rests_stays(cells, lengths, order):
 @pytest.mark.usefixtures("taichi_cpu")
 def test_the_states_of_the_last_steps_are_those_that_were_in_the_table():
     """In turn, whatever rows they are in; the arrays to go on from, too."""
-    from tehl_taichi.pressure import fields
-
     levels = columns(32, 9)
     states = [np.random.default_rng(n).normal(size=(10, 33)) for n in range(5)]
     levels.put(fields.RHO, 2.0)
@@ -135,10 +133,6 @@ def test_third_order_difference():
 @pytest.mark.parametrize("courant", [1.0, 0.5, 3.0])
 def test_a_film_carried_by_the_oil_stores_nothing(courant):
     """rho H that moves with the oil, and rho H at rest: the storage term with the Couette flow is 0 and d(rho H)/dX."""
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.equations import Equations
-    from tehl_taichi.pressure.isothermal import OneTemperature
-
     levels = columns(128)
     equations = Equations(levels, OneTemperature(levels))
     X, dT = levels.X[None], courant * levels.dx

@@ -6,6 +6,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.simd import V
+from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.march.passage import march
+from tehl_taichi.march.solved_state import SolvedState
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.levels import Levels
+from tehl_taichi.pressure.tractions import walls
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -14,8 +22,6 @@ NAMES = ("traction_x_a", "traction_y_a", "traction_x_b", "traction_y_b")
 
 def touching(**changes):
     """The passage of a high asperity until it touches; what is kept of it holds no tables."""
-    from tehl_taichi.march.passage import march
-
     description = scene("touching-asperity").replace(**{"thermal.on": False, "rheology.law": "newtonian", "grid.nx": 64,
                                                         "grid.ny": 16, "grid.y_max": 1.25, "time.steps": 9, **changes})
     shots = [SimpleNamespace(x=s.x, y=s.y, fields=s.fields, scalars=s.scalars) for s in march(description)]
@@ -147,11 +153,6 @@ def test_load_carried_by_solid_contact(slower):
 def warm_film(srr, upside_down=False):
     """A pressure hill, a gap and a temperature profile, made, with solid contact at some nodes of high and of low pressure, on
     64 x 8 cells, and the tractions (4, ny+1, nx+1) of it."""
-    from tehl_taichi.heat.temperatures import FilmHeat
-    from tehl_taichi.march.solved_state import SolvedState
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.levels import Levels
-
     description = scene("gear").replace(**{"thermal.on": True, "srr": srr, "grid.nx": 64, "grid.ny": 8})
     s = Scales.of(description)
     levels = Levels(description, s, 64, 8)
@@ -227,10 +228,6 @@ def test_swapping_the_surfaces_turns_the_shear_round(warm):
 @pytest.mark.parametrize("mean, half", [(0.3, 0.9), (-2.0, 0.4), (2.0, -0.7), (0.1, 0.2)])
 def test_walls_at_their_limit_balance_the_pressure(taichi_cpu, mean, half):
     """What both carry together is the difference of the pressure, as long as one wall could carry its half."""
-    from tehl_taichi.engine.language import ti
-    from tehl_taichi.engine.simd import V
-    from tehl_taichi.pressure.tractions import walls
-
     found = np.zeros(4)
 
     @ti.kernel

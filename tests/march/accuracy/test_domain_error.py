@@ -8,12 +8,19 @@ import pytest
 from advice import advised
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.laws.viscosity import ln_eta
+from tehl_taichi.march import steady as starts
 from tehl_taichi.march.accuracy.domain_error import DomainError, widened
 from tehl_taichi.march.flooded_border import UNSHARED
+from tehl_taichi.march.passage import march
+from tehl_taichi.march.steady import solve_steady
 from tehl_taichi.pressure import inlet
+from tehl_taichi.pressure.newton import PressureSolver
 from tehl_taichi.runs.summary import domain_warnings
 from tehl_taichi.scene import Scene, domain, scene
 from tehl_taichi.scene.grid_for_error import reaching
+from tehl_taichi.scene.hertz import line_gap
 from tehl_taichi.scene.scales import Scales
 
 NEWTONIAN = {"thermal.on": False, "rheology.law": "newtonian"}
@@ -24,8 +31,6 @@ STARVED = {"grid.inlet": "starved"}
 
 
 def steady(description):
-    from tehl_taichi.march.passage import march
-
     return next(march(description))
 
 
@@ -44,8 +49,6 @@ def point(M, L, x_min, y_max, nx, ny, **changes):
 
 def test_the_reduced_pressure_of_a_barus_oil_is_known():
     """(1 - exp(-alpha p))/alpha; and of an oil with another law what quadrature gives."""
-    from tehl_taichi.laws.viscosity import ln_eta
-
     oil = scene("smooth-line").replace(**{"oil.viscosity": "barus", "oil.alpha": 2e-8, "oil.eta0": 0.02, "oil.name": "b"}).oil
     p, q = inlet.reduced(oil, 90.0)
     np.testing.assert_allclose(q[1:], -np.expm1(-2e-8 * p[1:]) / 2e-8, rtol=1e-9)
@@ -66,8 +69,6 @@ def test_integrals_beyond_a_parabola_are_closed(X):
 
 def test_films_beyond_are_those_of_the_dry_line_and_a_constant():
     """Beside a Hertz line the gap of the rigid bodies less a logarithm: within 1 % of its exact growth from 2.5 a on."""
-    from tehl_taichi.scene.hertz import line_gap
-
     X, gap, _ = inlet.far(-2.5, line_gap(2.5), 1.0)
     exact = np.array([line_gap(-x) for x in X])
     assert np.abs(gap / exact - 1).max() < 0.01 and gap[0] > 1e3
@@ -142,10 +143,6 @@ def test_the_same_contact_at_another_scale_has_the_same_border():
 
 def effort(description, monkeypatch):
     """Newton steps, Krylov iterations and sweeps of the temperatures of a start."""
-    from tehl_taichi.heat.temperatures import FilmHeat
-    from tehl_taichi.march.steady import solve_steady
-    from tehl_taichi.pressure.newton import PressureSolver
-
     done, solve, sweep = np.zeros(3, int), PressureSolver.solve, FilmHeat.solve
 
     def solved(*args, **options):
@@ -186,8 +183,6 @@ def test_a_flooded_start_takes_hardly_more_than_a_starved_one(monkeypatch, name,
 @pytest.mark.usefixtures("taichi_cpu")
 def test_temperatures_settle_beside_the_border_of_their_film(monkeypatch):
     """Beside a gap of two films, which answers the border with as large a change; 0.03 of the oil's pressure were left once."""
-    from tehl_taichi.march import steady as starts
-
     missed, agreed = [], starts.iterate_border
 
     def seen(solver, border, report):
@@ -207,8 +202,6 @@ LOW_RIDGE = {"feature.shape": "ridge", "height": 0.4e-6, "width": 100e-6, "time.
 @pytest.mark.usefixtures("taichi_cpu")
 def test_a_passage_holds_the_pressure_of_its_start():
     """A ridge in a thick film: h_min 0.723 um by 12.5 a up to X = 0, 0.539 with p = 0 at -2.5 a. The same bits on resuming."""
-    from tehl_taichi.march.passage import march
-
     description = scene("gear").replace(**{**THICK_PASSAGE, **LOW_RIDGE})
     whole, states = [], []
     for n, shot in enumerate(march(description)):
@@ -227,8 +220,6 @@ def test_a_passage_holds_the_pressure_of_its_start():
 @pytest.mark.usefixtures("taichi_cpu")
 def test_the_peak_under_an_asperity_in_a_thick_film_is_that_of_a_long_domain():
     """1.68 GPa at -8.5 a, 2.01 with p = 0 at -2.5. (3.53 and 5.33 with the flow by the secant of the law.)"""
-    from tehl_taichi.march.passage import march
-
     asperity = {"height": 0.8e-6, "width": 50e-6, "grid.ny": 32, "time.x_start": -2.4, "time.x_end": 2.4}
     shots = list(march(scene("gear").replace(**{**THICK_PASSAGE, **asperity})))
     assert max(shot.scalars["p_max_Pa"] for shot in shots) == pytest.approx(1.684e9, rel=0.025)
@@ -236,8 +227,6 @@ def test_the_peak_under_an_asperity_in_a_thick_film_is_that_of_a_long_domain():
 
 @pytest.mark.usefixtures("taichi_cpu")
 def test_a_mirrored_feature_on_a_flooded_circle_gives_mirrored_fields():
-    from tehl_taichi.march.passage import march
-
     found = []
     for y in (40e-6, -40e-6):
         found.append(list(march(scene("ridge-on-ball").replace(**{

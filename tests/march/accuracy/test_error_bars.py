@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 from tehl_taichi.profiles import coverage
 
+from tehl_taichi.engine import field_pool
 from tehl_taichi.fatigue.assessment import Snapshots
 from tehl_taichi.march.accuracy import coarse_runs, error_bars, readings
 from tehl_taichi.march.accuracy.error_bars import GridReading, bar, bars, estimated_error, parabola_offset
+from tehl_taichi.march.passage import march
 from tehl_taichi.runs.summary import result_warnings, summary, summary_rows
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.rough_surfaces import is_rough
@@ -230,8 +232,6 @@ def moes(M, L, nx, x_min=-2.5):
 
 
 def start(description):
-    from tehl_taichi.march.passage import march
-
     return next(march(description))
 
 
@@ -325,8 +325,6 @@ class Store(Snapshots):
 
 @pytest.fixture(scope="module")
 def passage(taichi_cpu):
-    from tehl_taichi.march.passage import march
-
     return Store(march(short()))
 
 
@@ -388,8 +386,6 @@ def test_a_narrow_peak_is_at_the_exit_only_behind_the_middle(at, code):
 
 def test_companions_use_the_tables_of_the_run(passage):
     """Others would compile all kernels anew."""
-    from tehl_taichi.engine import field_pool
-
     ready = coarse_runs.scenes(short(**{"grid.nx": 128, "grid.ny": 32}))[0]
     coarse_runs.answers(short(**{"grid.nx": 128, "grid.ny": 32}))
     before = len(field_pool._tables)

@@ -9,6 +9,7 @@ import pytest
 from tehl_taichi.march.accuracy.domain_error import DomainError
 from tehl_taichi.march.accuracy.domain_error import _before as friction_before
 from tehl_taichi.march.accuracy.heat_before import heat_before
+from tehl_taichi.march.passage import march
 from tehl_taichi.march.steady import solve_steady
 from tehl_taichi.pressure import fields, inlet
 from tehl_taichi.pressure.inlet import Inlet
@@ -48,8 +49,6 @@ def test_heat_before_the_grid_is_the_integral_along_the_inlet():
 
 @pytest.mark.usefixtures("taichi_cpu")
 def test_surfaces_that_a_longer_domain_warms_more_lie_inside_their_bars():
-    from tehl_taichi.march.passage import march
-
     short, far = (next(march(light(**{"grid.x_min": x, "grid.nx": nx}))) for x, nx in ((-4.5, 192), (-14.5, 512)))
     for name in ("surface_a_max_C", "surface_b_max_C"):
         error = far.scalars[name] - short.scalars[name]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tehl_taichi.march.passage import march
 from tehl_taichi.march.steady import solve_steady
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure import inlet as module
@@ -76,8 +77,6 @@ def test_the_grid_and_the_oil_beyond_carry_the_load_together(name, share, change
 def test_thick_films_of_circles_are_those_of_large_domains():
     """Film and largest pressure on the usual domain lie inside their bars; without that load they were 6 % and half as much
     again off."""
-    from tehl_taichi.march.passage import march
-
     usual, large = (next(march(scene("mtm").replace(**{**THICK, **changes}))) for changes in (
         {"grid.nx": 128, "grid.ny": 48},
         {"grid.x_min": -20.0, "grid.x_max": 3.0, "grid.y_max": 16.0, "grid.nx": 368, "grid.ny": 128}))
@@ -90,8 +89,6 @@ def test_thick_films_of_circles_are_those_of_large_domains():
 @pytest.mark.usefixtures("taichi_cpu")
 def test_a_passage_keeps_the_load_of_its_start():
     """So that a resumed one gives the same bits."""
-    from tehl_taichi.march.passage import march
-
     ridge = scene("ridge-on-ball").replace(**{**NEWTONIAN, "speed": 3.0, "grid.nx": 64, "grid.ny": 16, "time.steps": 4})
     first, *rest = march(ridge)
     states = [first.state, *(shot.state for shot in rest[-1:])]

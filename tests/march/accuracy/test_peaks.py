@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tehl_taichi.march.accuracy.peaks import peak, ripple, sharpest
+from tehl_taichi.march.passage import march
 from tehl_taichi.scene import scene
 
 X = np.linspace(-1.5, 1.5, 97)[:, None]
@@ -83,8 +84,6 @@ def test_a_mirrored_pressure_has_the_mirrored_peak(steep):
 @pytest.mark.parametrize("M, L, known", [(235.8, 23.18, False), (200.0, 8.0, True)])
 def test_the_largest_pressure_of_a_circle_is_unknown_where_finer_grids_have_another(M, L, known):
     """On 256 columns 1.126 times that on 64, beside the axis; and 0.9995 times. Neither shows on the axis itself."""
-    from tehl_taichi.march.passage import march
-
     shot = next(march(scene("ball-on-disc").replace(**{
         "thermal.on": False, "rheology.law": "newtonian", "contact.load": 0.0, "contact.moes_M": M, "contact.moes_L": L,
         "oil.name": "moes-test-fluid", "grid.nx": 64, "grid.ny": 32, "grid.x_min": -2.5, "grid.y_max": 1.5})))

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from advice import advised
 
+from tehl_taichi.fatigue.assessment import Snapshots
 from tehl_taichi.march.accuracy.domain_error import SIDES, DomainError
 from tehl_taichi.march.accuracy.side_change import side_change
+from tehl_taichi.march.passage import march
 from tehl_taichi.runs.summary import domain_warnings
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
@@ -84,9 +86,6 @@ def test_the_part_of_the_sides_adds_as_a_square():
 @pytest.mark.usefixtures("taichi_cpu")
 def test_narrow_domains_err_by_no_more_than_their_part():
     """Largest pressure, smallest film in the middle and mean friction, against sides three times as far away."""
-    from tehl_taichi.fatigue.assessment import Snapshots
-    from tehl_taichi.march.passage import march
-
     found = []
     for y_max, ny in ((0.5, 8), (1.5, 24)):
         one = scene("gear").replace(**COARSE, **{"grid.y_max": y_max, "grid.ny": ny, "operation.srr": -0.12})

@@ -7,6 +7,8 @@ import sys
 import numpy as np
 import pytest
 
+from tehl_taichi.engine.language import ti
+
 PASSAGE = """
 import sys
 import numpy as np
@@ -46,8 +48,6 @@ def test_a_passage_by_cells_is_that_by_rows(tmp_path, changes):
 def test_a_passage_on_a_device_of_vulkan_is_that_on_the_cores(tmp_path):
     """Mesa's software device (packages mesa-vulkan-drivers and libvulkan1) will do. Newtonian oil: limits need an arcsine,
     which Taichi has there in single precision only."""
-    from tehl_taichi.engine.language import ti
-
     if not ti.lang.misc.is_arch_supported(ti.vulkan):
         pytest.skip("no device of Vulkan")
     changes = {"thermal.on": False, "rheology.law": "newtonian", "numerics.tolerance": 1e-10}  # guesses are in single precision

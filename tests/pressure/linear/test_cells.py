@@ -4,14 +4,20 @@ import numpy as np
 import pytest
 from pressure.linear.test_solver import LOAD, pressed
 
+from tehl_taichi.engine.language import ti
+from tehl_taichi.engine.simd import W
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.linear import line_solver
+from tehl_taichi.pressure.linear.cells import lines
+from tehl_taichi.pressure.linear.cells.cell_gmres import CellGmres
+from tehl_taichi.pressure.linear.interface import RightHandSide
+
 EQUAL = {"f32": 1e-5, "f64": 1e-12}
 
 
 @pytest.fixture(scope="module", params=("f64", pytest.param("f32", marks=pytest.mark.slow)))
 def problem(request, taichi_cpu):
     """(solver by rows, solver by cells, rows and net outflow of a right-hand side, precision) of one linear problem."""
-    from tehl_taichi.pressure.linear.cells.cell_gmres import CellGmres
-
     solver = pressed(request.param, "jacobi")
     rows, outflow = solver.linear.krylov.right.copy(), solver.linear.krylov.outflow.copy()
     cells = CellGmres(solver.levels)
@@ -20,8 +26,6 @@ def problem(request, taichi_cpu):
 
 
 def right_hand_side(rows, outflow, tolerance):
-    from tehl_taichi.pressure.linear.interface import RightHandSide
-
     return RightHandSide(rows, outflow, LOAD, tolerance, np.inf)
 
 
@@ -43,8 +47,6 @@ def test_corrections_and_their_iterations(problem):
 
 
 def test_a_solution_has_the_residual_that_was_asked_for(problem):
-    from tehl_taichi.pressure import fields
-
     by_rows, cells, (rows, outflow), precision = problem
     tolerance = {"f32": 1e-4, "f64": 1e-10}[precision]
     found = cells.solve(right_hand_side(rows, outflow, tolerance))
@@ -56,12 +58,6 @@ def test_a_solution_has_the_residual_that_was_asked_for(problem):
 
 def test_lines_by_cyclic_reduction(problem):
     """Of all levels with lines, against the factors of the solver by rows; the preconditioner of both is the same."""
-    from tehl_taichi.engine.language import ti
-    from tehl_taichi.engine.simd import W
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.linear import line_solver
-    from tehl_taichi.pressure.linear.cells import lines
-
     @ti.kernel
     def line_solutions(F: ti.template()):
         lines.solve(F.J, F.lines)
@@ -99,8 +95,6 @@ def dense_band(entries, half):
 
 def test_another_right_hand_side_without_a_load(problem):
     """H0 stays where nothing is asked of the load."""
-    from tehl_taichi.pressure.linear.interface import RightHandSide
-
     _, cells, (rows, outflow), _ = problem
     found = cells.solve(RightHandSide(rows, outflow, None, 1e-3, np.inf))
     assert found.approach == 0.0 and np.abs(found.pressure).max() > 0

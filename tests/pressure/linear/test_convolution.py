@@ -4,6 +4,12 @@ import numpy as np
 import pytest
 from direct_deflection import deflected
 
+from tehl_taichi.engine import simd
+from tehl_taichi.engine.task_pool import PATIENCE
+from tehl_taichi.pressure import fields, influence
+from tehl_taichi.pressure.levels import Levels
+from tehl_taichi.pressure.linear import line_solver, schedule
+from tehl_taichi.pressure.linear.solver import Krylov
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -23,8 +29,6 @@ QUICK = [pytest.param(name, precision, id=f"{name}-{precision}",
 
 
 def levels_of(name, precision):
-    from tehl_taichi.pressure.levels import Levels
-
     builtin, nx, ny, full = CASES[name]
     ellipse = {"contact.kind": "elliptic", "contact.radius_y": 40e-3} if "ellipse" in name else {}
     cells = {"grid.nx": nx, "grid.ny": ny} if ny else {"grid.nx": nx}
@@ -35,9 +39,6 @@ def levels_of(name, precision):
 
 def of_table(levels, table, row, l=0):
     """Field of J as (ny+1, nx+1)."""
-    from tehl_taichi.engine import simd
-    from tehl_taichi.pressure import fields
-
     nx, ny = levels.sizes[l]
     first, blocks = int(levels.G[l, fields.OFF]), ny // simd.W + 1
     found = table.to_numpy()[row, first : first + blocks * (nx + 1)].astype(float)
@@ -47,9 +48,6 @@ def of_table(levels, table, row, l=0):
 @pytest.mark.parametrize("name, precision", QUICK)
 def test_deflection(taichi_cpu, name, precision):
     """And a rise of H0 on top of it: of a linear solve in its precision, and of the film in double precision."""
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.linear.solver import Krylov
-
     levels = levels_of(name, precision)
     krylov = Krylov(levels)
     levels.put(fields.P, np.random.default_rng(3).random((levels.ny + 1, levels.nx + 1)))
@@ -65,9 +63,6 @@ def test_deflection(taichi_cpu, name, precision):
 
 @pytest.mark.parametrize("size, patience", ((2, 10**6), (2, 0), (7, 10**4)))
 def test_the_same_film_by_any_number_of_workers(taichi_cpu, size, patience):
-    from tehl_taichi.engine.task_pool import PATIENCE
-    from tehl_taichi.pressure import fields
-
     levels, films = levels_of("whole circle", "f64"), []
     levels.put(fields.P, np.random.default_rng(6).random((levels.ny + 1, levels.nx + 1)))
     team = levels.bending.team
@@ -80,8 +75,6 @@ def test_the_same_film_by_any_number_of_workers(taichi_cpu, size, patience):
 
 def waves(levels, shape):
     """Symbol of K^-1 on a whole period, (2 further, 2 M)."""
-    from tehl_taichi.pressure import influence
-
     further = shape.further if levels.ny else 0
     symbol = 1 / influence.symbol(2 * shape.M, further, *levels.grid(0)[2:], levels.scales.compliance)
     symbol = np.hstack([symbol, symbol[:, -2:0:-1]])
@@ -91,11 +84,6 @@ def waves(levels, shape):
 @pytest.mark.parametrize("name, precision", QUICK)
 def test_distribution(taichi_cpu, name, precision):
     """Between line solutions that are the right-hand side, and corrections that are what comes back."""
-    from tehl_taichi.engine import simd
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.linear import line_solver, schedule
-    from tehl_taichi.pressure.linear.solver import Krylov
-
     levels = levels_of(name, precision)
     krylov = Krylov(levels)
     simd.put(levels.J, levels.G, 0, fields.BAND[line_solver.HALF], np.ones((levels.ny + 1, levels.nx + 1)), True)

@@ -4,6 +4,11 @@ import numpy as np
 import pytest
 from pressure.linear.test_solver import pressed
 
+from tehl_taichi.engine import simd
+from tehl_taichi.pressure import fields, influence
+from tehl_taichi.pressure.linear.interface import Correction
+from tehl_taichi.pressure.newton import PressureSolver
+
 
 class DenseSolver:
     """The linearised problem as one matrix, from the tables of the finest level."""
@@ -11,9 +16,6 @@ class DenseSolver:
     STEPS = ((-2, 0), (-1, 0), (0, 0), (1, 0), (0, 1), (0, -1))  # along x and y, of the entries of a row
 
     def __init__(self, levels):
-        from tehl_taichi.engine import simd
-        from tehl_taichi.pressure import fields, influence
-
         self.levels, self.solves, self.lanes, self.first = levels, 0, simd.W, int(levels.G[0, simd.OFF])
         self.stencil, self.scale = fields.STENCIL, fields.SCALE
         self.j, self.i = (q.ravel() for q in np.mgrid[: levels.ny + 1, : levels.nx + 1])
@@ -23,8 +25,6 @@ class DenseSolver:
 
     def solve(self, rhs):
         """The outflow is a sum of the rows, which an exact solution satisfies with them."""
-        from tehl_taichi.pressure.linear.interface import Correction
-
         self.solves += 1
         table = self._table()
         J, by_film = self._matrices(table)
@@ -52,9 +52,6 @@ class DenseSolver:
 
 
 def test_newton_converges_with_another_linear_solver(taichi_cpu):
-    from tehl_taichi.pressure import fields
-    from tehl_taichi.pressure.newton import PressureSolver
-
     first = pressed("f64", "jacobi")
     levels, film = first.levels, first.equations.film
     assert first.solve().converged

@@ -7,7 +7,13 @@ import numpy as np
 import pytest
 from pressure.linear.test_solver import pressed
 
+from tehl_taichi.engine.simd import OFF, W
 from tehl_taichi.errors import SceneError
+from tehl_taichi.march.passage import march
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.linear import schedule
+from tehl_taichi.pressure.linear.solver import Krylov
+from tehl_taichi.pressure.newton import pressure_solver
 from tehl_taichi.scene import scene
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
@@ -17,8 +23,6 @@ class Once:
     """What a preconditioner answers to a right-hand side (scaled rows): all of it, or the finest level alone."""
 
     def __init__(self, krylov):
-        from tehl_taichi.pressure.linear import schedule
-
         self.krylov, p = krylov, krylov.program
         self.whole = p._fine(schedule.START, schedule.BEGIN)
         p._precondition(schedule.END)
@@ -30,9 +34,6 @@ class Once:
         krylov._bind()
 
     def answer(self, right, phase):
-        from tehl_taichi.engine.simd import OFF, W
-        from tehl_taichi.pressure import fields
-
         k, v = self.krylov, self.krylov.levels
         k.right[:] = right
         k._run(phase)
@@ -43,9 +44,6 @@ class Once:
 @pytest.fixture(scope="module")
 def both(taichi_cpu):
     """A linear problem and its preconditioners of one colour and of two: (right-hand side, row of each number, Once, Once)."""
-    from tehl_taichi.engine.simd import W
-    from tehl_taichi.pressure.linear.solver import Krylov
-
     solver = pressed("f64", "jacobi")
     one, v = solver.linear.krylov, solver.levels
     right, rows = one.right.copy(), np.arange(v.n) // W // (v.nx + 1) * W + np.arange(v.n) % W
@@ -71,8 +69,6 @@ def test_the_second_colour_answers_what_the_first_leaves(both):
 @pytest.mark.slow
 def test_they_settle_in_the_same_state():
     """A whole start and some steps."""
-    from tehl_taichi.march.passage import march
-
     shots = []
     for sweep in ("jacobi", "red-black"):
         description = scene("gear").replace(**{"thermal.on": False, "grid.nx": 64, "grid.ny": 16, "time.steps": 3,
@@ -84,8 +80,6 @@ def test_they_settle_in_the_same_state():
 
 
 def test_cells_have_no_second_colour(monkeypatch):
-    from tehl_taichi.pressure.newton import pressure_solver
-
     monkeypatch.setenv("TEHL_CELLS", "1")
     levels = SimpleNamespace(scene=scene("gear").replace(**{"numerics.sweep": "red-black"}))
     with pytest.raises(SceneError, match="red-black.*allowed here: jacobi"):

@@ -7,6 +7,10 @@ import numpy as np
 import pytest
 
 from tehl_taichi.engine import cores
+from tehl_taichi.engine.task_pool import PATIENCE
+from tehl_taichi.march.steady import solve_steady
+from tehl_taichi.pressure import fields
+from tehl_taichi.pressure.linear.gmres import PORTION, SCALARS
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 
@@ -15,8 +19,6 @@ LOAD = 0.03
 
 def pressed(precision, sweep):
     """Solver of a steady contact pressed together a little, with its linear problem."""
-    from tehl_taichi.march.steady import solve_steady
-
     description = scene("gear").replace(**{"thermal.on": False, "rheology.law": "newtonian", "grid.nx": 64, "grid.ny": 16,
                                            "numerics.precision": precision, "numerics.sweep": sweep})
     solver = solve_steady(description, Scales.of(description), 64, 16).solver
@@ -51,8 +53,6 @@ def solved(problem, tolerance):
 @pytest.mark.parametrize("size, patience", ((2, 10**6), (2, 0), (3, 50), (7, 10**4)))
 def test_the_same_bits_by_any_number_of_workers(problem, size, patience):
     """Also by those who leave in the middle, and by more than there are threads."""
-    from tehl_taichi.engine.task_pool import PATIENCE
-
     team, results = problem[0].team, []
     before = team.size, team.sync[PATIENCE]
     for team.size, team.sync[PATIENCE] in ((1, 10**6), (size, patience)):
@@ -80,8 +80,6 @@ def test_the_same_bits_beside_others_on_all_cores(problem):
 @pytest.mark.parametrize("portion", (1, 4))
 def test_the_same_bits_in_portions(problem, monkeypatch, portion):
     """A solve that is cut into several launches, between which Ctrl-C is heard."""
-    from tehl_taichi.pressure.linear.gmres import PORTION, SCALARS
-
     krylov, ran = problem[0], []
     whole, usual, run = solved(problem, 1e-3), krylov.numbers[SCALARS, PORTION], krylov.team.run
     monkeypatch.setattr(krylov.team, "run", lambda *args: (ran.append(1), run(*args)))
@@ -94,8 +92,6 @@ def test_the_same_bits_in_portions(problem, monkeypatch, portion):
 
 def test_the_solution_has_the_residual_that_it_is_said_to_have(problem):
     """Rows, load and net outflow, computed from the solution."""
-    from tehl_taichi.pressure import fields
-
     (krylov, b), tolerance = problem, {"f32": 1e-4, "f64": 1e-10}[problem[0].levels.precision]
     x, rise, count, left = solved(problem, tolerance)
     assert 5 < count < krylov.most and left <= tolerance
