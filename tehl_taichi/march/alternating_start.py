@@ -22,12 +22,12 @@ LONGEST_RUN = 8  # blocks that are averaged
 STUCK, PROGRESS, JUMP = 8, 0.95, 2.0
 
 
-def time_step(scene, scales, dx):
-    """Time step (s) on cells of dx (Hertz units): that of the passage, or one cell of the faster surface."""
-    o = scene.operation
+def time_step(levels):
+    """Time step (s) on the cells of `levels`: that of the passage, or one cell of the faster surface."""
+    scene, a = levels.scene, levels.scales.a
     if scene.transient:
-        return step_cells(scene) * dx * scales.a / scene.reference.speed
-    return dx * scales.a / max(o.u_a, o.u_b)
+        return step_cells(scene) * levels.dx * a / scene.reference.speed
+    return levels.dx * a / max(scene.operation.u_a, scene.operation.u_b)
 
 
 def find_steady(levels, heat, solve, T=None):

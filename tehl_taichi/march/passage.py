@@ -27,7 +27,6 @@ from tehl_taichi.pressure.newton import RISES, pressure_solver
 from tehl_taichi.pressure.storage_term import Storage
 from tehl_taichi.scene import memory_demand
 from tehl_taichi.scene.feature_wording import position_word
-from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.sections import AUTO
 from tehl_taichi.scene.timeline import step_cells, total_steps
 
@@ -42,31 +41,30 @@ def march(scene, state=None, changes=()):
     without enough memory for the grid, NotConverged if a step fails finally.
     """
     memory_demand.check(scene)
-    scales = Scales.of(scene)
     if state is None:
-        first = steady_snapshot(scene, scales)
+        first = steady_snapshot(scene)
         yield first
         state = first.state
     if total_steps(scene) > state["step"]:
-        yield from Passage(scene, scales, state, changes).steps()
+        yield from Passage(scene, state, changes).steps()
 
 
 class Passage:
     """Time march from a saved state."""
 
-    def __init__(self, scene, scales, state, changes=()):
-        self.scales, self.doubled, self.changes = scales, bool(state.get("double", False)), changes
+    def __init__(self, scene, state, changes=()):
+        self.doubled, self.changes = bool(state.get("double", False)), changes
         self._set_up(scene, state)
 
     def _set_up(self, scene, state, done=0.0):
         """Create tables and solvers of a scene, at a state that has completed `done` of its next step."""
         scene = scene.replace(**{"numerics.precision": "f64"}) if self.doubled else scene
-        self.scene, scales = scene, self.scales
-        self.levels = Levels(scene, scales, scene.grid.nx, scene.rows, full=not scene.symmetric)
+        self.scene, self.levels = scene, Levels(scene, scene.grid.nx, scene.rows, full=not scene.symmetric)
+        self.scales = self.levels.scales
         self.smooth, self.border = self.levels.smooth_gap(), self.levels.get(fields.MASK).T == 0
         self.first, self.step_x = scene.path[0], step_cells(scene) * self.levels.dx
         self.dT = self.step_x * scene.operation.u_m / scene.reference.speed
-        self.heat = None if scene.isothermal else FilmHeat(self.levels, self.dT * scales.t)
+        self.heat = None if scene.isothermal else FilmHeat(self.levels, self.dT * self.scales.t)
         # the film whose density and viscosity the pressure is solved for: they follow the temperatures, where there are any
         self.film = self.heat or OneTemperature(self.levels)
         self.solver = pressure_solver(self.levels, self.film, RISES)
@@ -74,7 +72,7 @@ class Passage:
 
     def _restore(self, state, done):
         self.step, self.P, self.solver.H0 = int(state["step"]), np.array(state["P"]), float(state["H0"])
-        self.solver.load = float(state.get("load", self.scales.load))  # as the border's pressure, that of the start
+        self.solver.load = float(state.get("load", self.solver.load))  # as the border's pressure, that of the start
         self.parts = Substeps.of(state)
         self.levels.put(fields.P, self.P)
         if self.heat:
@@ -117,7 +115,7 @@ class Passage:
         H0, at = self.solver.H0, self._moved(self.step + until)
         self._move_feature(self.step + until)
         self.storage.begin(part * self.dT)
-        self._predict(at)
+        self.prediction.put(at)
         report = self._exchange(part) if self.heat else self._solve()
         if report.converged:
             self._accept(at, part)
@@ -130,10 +128,6 @@ class Passage:
         gap = with_features(self.smooth, self.levels, self.scene.surfaces, self.position(step))
         sink(gap, self.levels, self.scene.surfaces, self.changes, self.position(step))
         self.levels.put(fields.GAP0, gap)
-
-    def _predict(self, at):
-        """Write predicted values for the state with the feature at `at` cells from its start."""
-        self.prediction.put(at)
 
     def _exchange(self, part):
         """Solve pressure and temperatures of a part of a step."""

@@ -13,6 +13,7 @@ from tehl_taichi.march.accuracy.error_bars import bars
 from tehl_taichi.march.failure import not_converged
 from tehl_taichi.march.solved_state import SolvedState
 from tehl_taichi.march.steady import solve_steady
+from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.coded_text import Reason
 
 
@@ -40,14 +41,15 @@ class StartReadings:
         return snapshot.take(SolvedState(solver, heat, report, self.started), 0, 0.0, math.nan, None)
 
 
-def steady_snapshot(scene, scales):
+def steady_snapshot(scene):
     """Snapshot 0 with the error bars of its numbers.
 
     In a passage whose temperatures do not settle: a state in time, with the reason why its numbers are unknown. Raises
     NotConverged if neither is found.
     """
-    looks, (rows, full) = StartReadings(scene), _across(scene, scales)
-    result = solve_steady(scene, scales, scene.grid.nx, rows, looks, full)
+    scales, looks = Scales.of(scene), StartReadings(scene)
+    rows, full = _across(scene, scales)
+    result = solve_steady(scene, scene.grid.nx, rows, looks, full)
     unsettled = _unsettled(result, scene)
     first = looks.taken(result.solver, result.heat, result.report) if unsettled else looks.newest
     state = snapshot.first_state(result.solver, result.heat)

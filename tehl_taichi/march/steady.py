@@ -48,7 +48,7 @@ def grid_sequence(nx, ny):
     return sizes[::-1]
 
 
-def solve_steady(scene, scales, nx, ny, look=None, full=False):
+def solve_steady(scene, nx, ny, look=None, full=False):
     """Steady contact on nx x ny cells (ny = 0: line; full: on the whole domain), smooth except for the features of a surface at
     rest.
 
@@ -56,20 +56,21 @@ def solve_steady(scene, scales, nx, ny, look=None, full=False):
     `report.converged`.
     """
     look = look or (lambda solver, heat, report: scalars(solver.levels, *map(solver.levels.get, (fields.P, fields.H))))
-    P, H0, load, T, values, work, moving = None, 0.0, scales.load, None, [], 0, False
+    P, H0, load, T, values, work, moving = None, 0.0, 0.0, None, [], 0, False
     for size in grid_sequence(nx, ny):
         solver = heat = levels = None  # give their tables to the next grid
-        finest, levels = size[0] == nx, Levels(scene, scales, *size, full)
+        finest, levels = size[0] == nx, Levels(scene, *size, full)
         levels.put(fields.GAP0, smooth_with(levels, scene.standing))
         solver = pressure_solver(levels, OneTemperature(levels))
         solver.border = border_of(levels)
-        solver.load, solver.shares = load, P is not None
+        if P is not None:
+            solver.load, solver.shares = load, True
         report = share_load(solver, from_nothing(solver) if P is None else _from_coarser(solver, P, H0))
         # a grid too coarse for the outlet of this film is no start for the next one, nor a step of its error
-        P, H0, load = (levels.get(fields.P), solver.H0, solver.load) if report.converged else (None, 0.0, scales.load)
+        P, H0, load = (levels.get(fields.P), solver.H0, solver.load) if report.converged else (None, 0.0, 0.0)
         before, T = T, None  # temperatures are a start for the next grid only
         if report.converged and not scene.isothermal and (finest or nx // size[0] <= FINEST_THERMAL and not _touches(solver)):
-            heat = FilmHeat(levels, time_step(scene, scales, levels.dx))
+            heat = FilmHeat(levels, time_step(levels))
             solver.take(heat)  # density and viscosity follow the temperatures from here on
             report, moving = _with_temperatures(solver, heat, before, finest)
             if finest or report.converged and not _touches(solver):

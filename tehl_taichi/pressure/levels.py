@@ -9,6 +9,7 @@ from tehl_taichi.pressure.conditions import conditions
 from tehl_taichi.pressure.deflection import bending
 from tehl_taichi.pressure.grids import COARSEST_2D, Grids, coarsen, columns, load_weights, table_columns
 from tehl_taichi.pressure.level_table import LevelNumbers
+from tehl_taichi.scene.scales import Scales
 
 DTYPES = {"f32": np.float32, "f64": np.float64}  # of the linear solves
 HEAVY = 4  # work of a column in the laws and in the linearisation, in units of a copy
@@ -17,12 +18,13 @@ HEAVY = 4  # work of a column in the laws and in the linearisation, in units of 
 class Levels(Grids):
     """State table S, table of the linear problem J, numbers of the levels G and of the scene (conditions) on Grids.
 
-    scene: the description; scales, nx, ny, full, coarsest: see :class:`Grids`; domain: its extent, if it differs from the
-    scene's. The fields of the finest grid are read and written as arrays (ny+1, nx+1) with :meth:`get` and :meth:`put`. Vectors
-    of the Krylov solver are flat arrays of `n` numbers of type `linear` in the order of the table, ghosts included.
+    scene: the description; nx, ny, full, coarsest: see :class:`Grids`; scales, domain: units and extent, if not the scene's.
+    The fields of the finest grid are read and written as arrays (ny+1, nx+1) with :meth:`get` and :meth:`put`. Vectors of the
+    Krylov solver are flat arrays of `n` numbers of type `linear` in the order of the table, ghosts included.
     """
 
-    def __init__(self, scene, scales, nx, ny, full=False, domain=None, coarsest=COARSEST_2D):
+    def __init__(self, scene, nx, ny, full=False, scales=None, domain=None, coarsest=COARSEST_2D):
+        scales = scales or Scales.of(scene)
         super().__init__(domain or scene.grid, scales, nx, ny, full, coarsest)
         self.scene, self.thins = scene, scene.shear_law.thins
         self.conditions = conditions(scene, scales, self.X)

@@ -9,7 +9,6 @@ from tehl_taichi.heat import departure_points, film_tables
 from tehl_taichi.heat.heat_step import Drift, HeatStep
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
@@ -17,7 +16,7 @@ pytestmark = pytest.mark.usefixtures("taichi_cpu")
 def test_a_bound_launch_reads_each_number_by_its_name():
     """The launch is bound before the numbers are set: it must see the new ones, each in its own place."""
     description = scene("smooth-line").replace(**{"thermal.on": True, "grid.nx": 64})
-    levels = Levels(description, Scales.of(description), 64, 0)
+    levels = Levels(description, 64, 0)
     columns, step = film_tables.FilmTables(levels, 5), Record(HeatStep)
     x = np.arange(65.0)[None, None, :] + np.zeros((5, 1, 1))
     departures = bind(departure_points.departures, levels.S, columns.field, columns.singles.field, levels.G, 5,

@@ -9,7 +9,6 @@ from tehl_taichi.heat import departure_points, film_tables
 from tehl_taichi.heat.heat_step import HeatStep
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
@@ -21,7 +20,7 @@ class Sideways:
 
     def __init__(self, rows, along=0.0):
         description = scene("smooth-line").replace(**{"thermal.on": True, "grid.nx": 32, "grid.ny": ROWS, "grid.y_max": 1.0})
-        levels = Levels(description, Scales.of(description), 32, ROWS)
+        levels = Levels(description, 32, ROWS)
         self.slots, self.columns, step = film_tables, film_tables.FilmTables(levels, NODES), Record(HeatStep)
         step.set(inv_x=1.0, inv_y=1.0, back=1.0, back_2=2.0, near=4 / 3, far=-1 / 3)
         self.shape = NODES, ROWS + 1, 33

@@ -7,10 +7,12 @@ import pytest
 
 from tehl_taichi.heat import film_tables
 from tehl_taichi.heat.temperatures import FilmHeat
+from tehl_taichi.laws.conduction import conductivity, heat_capacity
+from tehl_taichi.laws.density import expansivity, rho_film
+from tehl_taichi.laws.viscosity import ln_eta
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.sections import Rheology, Thermal
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
@@ -53,9 +55,6 @@ class Exact:
 
     def column(self, X, Y, t):
         """(u, v, rho, 1/eta, int_0 rho (u, v, 1) h, stress of the Couette part, zeta_c, gradient) of Newtonian columns."""
-        from tehl_taichi.laws.density import rho_film
-        from tehl_taichi.laws.viscosity import ln_eta
-
         oil, o, s, C = self.scene.oil, self.scene.operation, self.s, self.heat.across.C
         p, h, T = pressure(X, Y, t) * s.p_H, thickness(X, Y, t), warmth(X, Y, self.zeta, t)
         slope = [s.p_H / s.a * d for d in (0.05 * np.cos(0.5 * X - 0.2 * t), -0.02 * np.pi * np.sin(np.pi * Y))]
@@ -73,9 +72,6 @@ class Exact:
 
     def source(self):
         """What must be added to the energy equation, W/m3, (nz, ny+1, nx+1)."""
-        from tehl_taichi.laws.conduction import conductivity, heat_capacity
-        from tehl_taichi.laws.density import expansivity
-
         oil, a, X, Y = self.scene.oil, self.s.a, self.X, self.Y
         u, v, rho, ie, fluxes, tau, centre, slope = self.column(X, Y, 0.0)
         P, h, T = pressure(X, Y, 0.0), thickness(X, Y, 0.0), warmth(X, Y, self.zeta, 0.0)
@@ -99,7 +95,7 @@ def solved(cells, courant=0.8):
     base = scene("smooth-line").replace(**{"contact.hertz_pressure": 0.5e9, "speed": 2.0, "srr": -0.3, "grid.y_max": 1.0,
                                            "grid.x_min": -2.5})  # the cells of the waves, however thick the film
     description = dataclasses.replace(base, rheology=Rheology(law="newtonian"), thermal=Thermal(on=True))
-    levels = Levels(description, Scales.of(description), 4 * cells, cells)
+    levels = Levels(description, 4 * cells, cells)
     s = levels.scales
     dt = courant * levels.dx
     heat = FilmHeat(levels, dt * s.a / s.u_m)

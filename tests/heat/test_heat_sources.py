@@ -227,7 +227,7 @@ def test_at_a_crest_oil_slips_along_both_walls():
 
     stiff = scene("gear").replace(**{"feature.length": math.inf, "grid.nx": 64, "oil.name": "mineral-vg220"})
     scales = Scales.of(stiff)
-    passage = Passage(stiff, scales, steady_snapshot(stiff, scales).state)
+    passage = Passage(stiff, steady_snapshot(stiff).state)
     shots = [passage.advance() for _ in range(4)]
     assert sum(shot.scalars["rejected"] for shot in shots) == 0
     singles, v = passage.heat.columns.single, passage.levels

@@ -10,7 +10,6 @@ from tehl_taichi.heat import energy, film_tables
 from tehl_taichi.heat.heat_step import HeatStep
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 NODES, ROWS, COLUMNS = 3, 12, 32
@@ -30,7 +29,7 @@ def outflow(across):
                         out[s * W + u, i] = found[u]
 
     description = scene("smooth-line").replace(**{"thermal.on": True, "grid.nx": COLUMNS, "grid.ny": ROWS})
-    levels, step, out = Levels(description, Scales.of(description), COLUMNS, ROWS), Record(HeatStep), np.zeros((ROWS + 1, 33))
+    levels, step, out = Levels(description, COLUMNS, ROWS), Record(HeatStep), np.zeros((ROWS + 1, 33))
     film = film_tables.FilmTables(levels, NODES)
     step.set(inv_x=1.0, inv_y=2.0)
     film.put_nodes(film_tables.MY, across[None, :, None] + np.zeros((NODES, ROWS + 1, COLUMNS + 1)))

@@ -9,7 +9,6 @@ from tehl_taichi.heat.relaxation import BACK, CREEP
 from tehl_taichi.heat.temperatures import FilmHeat
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 GOAL = 100.0
@@ -19,7 +18,7 @@ GOAL = 100.0
 def heat():
     """A FilmHeat on 64x16 cells of a line contact, at the beginning of a step."""
     description = scene("gear").replace(**{"grid.nx": 64, "grid.ny": 16})
-    levels = Levels(description, Scales.of(description), 64, 16)
+    levels = Levels(description, 64, 16)
     heat = FilmHeat(levels, 1e-6)
     heat.start()
     heat.begin(heat.dt)

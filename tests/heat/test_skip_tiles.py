@@ -10,7 +10,6 @@ from tehl_taichi.march.passage import Passage, march
 from tehl_taichi.march.start import steady_snapshot
 from tehl_taichi.pressure import fields
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 # its last step has columns where oil begins to slip along a wall, whose Newton steps creep
 GEAR = scene("gear").replace(**{"srr": -0.12, "grid.nx": 128, "grid.ny": 32, "time.x_start": -1.4, "time.x_end": -0.5})
@@ -47,13 +46,13 @@ def test_what_rests_would_hardly_move(taichi_cpu, monkeypatch):
 @pytest.fixture(scope="module")
 def start(taichi_cpu):
     """State of the steady start."""
-    return steady_snapshot(GEAR, Scales.of(GEAR)).state
+    return steady_snapshot(GEAR).state
 
 
 @pytest.fixture
 def heat(start):
     """Temperatures of a film solved for, so that every tile may rest."""
-    passage = Passage(GEAR, Scales.of(GEAR), start)
+    passage = Passage(GEAR, start)
     passage.advance()
     passage.heat.begin(passage.dT * passage.scales.t)
     passage.heat.solve()

@@ -28,8 +28,8 @@ def film(srr, ratio):
                                "contact.kind": "elliptic" if ratio != 1 else "point",
                                "contact.radius_x": 0.0127, "contact.radius_y": 0.0127 * ratio, "grid.nx": 64, "grid.ny": 24,
                                "grid.x_min": -2.0, "grid.x_max": 1.5, "grid.y_max": 1.5, **steel})
-    levels = Levels(description, Scales.of(description), 64, 24)
-    heat = FilmHeat(levels, time_step(description, levels.scales, levels.dx))
+    levels = Levels(description, 64, 24)
+    heat = FilmHeat(levels, time_step(levels))
     heat.start()
     return heat, levels
 

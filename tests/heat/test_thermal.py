@@ -34,8 +34,8 @@ def thermal(name="smooth-line", **changes):
 
 def film(description, nx):
     """A FilmHeat on a one-dimensional grid, with its levels."""
-    levels = Levels(description, Scales.of(description), nx, 0)
-    heat = FilmHeat(levels, time_step(description, levels.scales, levels.dx))
+    levels = Levels(description, nx, 0)
+    heat = FilmHeat(levels, time_step(levels))
     return heat, levels
 
 
@@ -194,7 +194,7 @@ def test_strong_sliding_settles(srr):
 def test_simple_sliding(srr):
     """A surface at rest conducts through 3 a of its body: T - T_0 = q 3 a/k at every point."""
     description = thermal(srr=srr, **{"grid.nx": 64})
-    result = solve_steady(description, Scales.of(description), 64, 0)
+    result = solve_steady(description, 64, 0)
     assert result.report.converged
     heat, rest = result.heat, 0 if srr < 0 else 1
     flux = heat.columns.single((film_tables.QA, film_tables.QB)[rest])[0]
@@ -277,7 +277,7 @@ def sources_and_sinks(heat, levels):
 def test_heat_balance():
     """Heat into the bodies and the oil = friction and compression, to 1e-3 of the friction; 58.2 kW/m go into the bodies."""
     description = thermal(srr=-0.1176, **{"grid.nx": 256, **AT_TWO})
-    result = solve_steady(description, Scales.of(description), 256, 0)
+    result = solve_steady(description, 256, 0)
     assert result.report.converged and result.heat.report.failed == 0
     levels = result.solver.levels
     wet = levels.get(fields.P)[0] > 0

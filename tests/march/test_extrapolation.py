@@ -31,7 +31,7 @@ class Pressure:
 
     def __init__(self, rows, order, P, at=0.0, state=None):
         description = scene("pitch-line").replace(**{"thermal.on": False})
-        self.levels = Levels(description, Scales.of(description), len(X) - 1, rows - 1)
+        self.levels = Levels(description, len(X) - 1, rows - 1)
         self.P = P
         self.guess = StateExtrapolation(self.levels, order, at, state or {})
 
@@ -148,7 +148,7 @@ class Film:
     def __init__(self, **changes):
         gear = scene("gear").replace(**{"grid.nx": 128, "grid.ny": 32, **changes})
         scales = Scales.of(gear)
-        self.heat = FilmHeat(Levels(gear, scales, 128, gear.rows, full=False), 1e-3 * scales.t)
+        self.heat = FilmHeat(Levels(gear, 128, gear.rows, full=False), 1e-3 * scales.t)
         self.put(0.0)
         self.keep()
 

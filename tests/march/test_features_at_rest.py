@@ -7,7 +7,6 @@ from tehl_taichi.march import isothermal_start, steady
 from tehl_taichi.march.steady import solve_steady
 from tehl_taichi.pressure import fields
 from tehl_taichi.scene import Scene, scene
-from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 GEAR = scene("gear").replace(**{"srr": 2.0, "thermal.on": False, "fatigue.on": False, "grid.nx": 64, "grid.ny": 16})
@@ -19,7 +18,7 @@ def start(height):
     passing, = data["feature"]
     data["feature"] = [passing, {**passing, "surface": "b", "height": height}]
     description = Scene.from_dict(data)
-    return solve_steady(description, Scales.of(description), description.grid.nx, description.rows)
+    return solve_steady(description, description.grid.nx, description.rows)
 
 
 def film(height):

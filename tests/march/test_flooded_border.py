@@ -17,7 +17,6 @@ from tehl_taichi.pressure.isothermal import OneTemperature
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import PressureSolver
 from tehl_taichi.scene import scene, thick_film
-from tehl_taichi.scene.scales import Scales
 
 SETTLED = SimpleNamespace(agrees=lambda: True)
 
@@ -26,7 +25,7 @@ def with_whole_load():
     """(solver, report) of a thick film beside a short inlet, whose grid carries the load of the oil beyond it, too."""
     thick = scene("smooth-line").replace(**{"hertz_pressure": 5e8, "speed": 20.0, "temperature": 60.0, "thermal.on": False,
                                             "grid.nx": 64, "grid.x_min": -2.5})
-    solver = PressureSolver(levels := Levels(thick, Scales.of(thick), 64, 0), OneTemperature(levels))
+    solver = PressureSolver(levels := Levels(thick, 64, 0), OneTemperature(levels))
     levels.put(fields.GAP0, levels.smooth_gap())
     solver.border = flooded_border.border_of(levels)
     report, solver.border = from_nothing(solver), None
@@ -57,7 +56,7 @@ def starting(**changes):
     """SteadyResult of a thick line beside an inlet at -2.5 a."""
     thick = scene("smooth-line").replace(**{"hertz_pressure": 2e8, "temperature": 60.0, "srr": 0.0, "thermal.on": False,
                                             "grid.x_min": -2.5, "grid.x_max": 1.5, "grid.nx": 64, **changes})
-    return solve_steady(thick, Scales.of(thick), 64, 0)
+    return solve_steady(thick, 64, 0)
 
 
 @pytest.mark.usefixtures("taichi_cpu")

@@ -13,7 +13,6 @@ from tehl_taichi.march.accuracy.coarse_runs import scenes
 from tehl_taichi.march.steady import solve_steady
 from tehl_taichi.pressure import precision
 from tehl_taichi.scene import scene, scene_file
-from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
@@ -32,7 +31,7 @@ def gear(**changes):
 
 def solved(description):
     """(precision of the levels, that of their linear table, film) of the steady contact; the next one takes over its tables."""
-    result = solve_steady(description, Scales.of(description), description.grid.nx, 0)
+    result = solve_steady(description, description.grid.nx, 0)
     assert result.report.converged
     levels = result.solver.levels
     return levels.precision, str(levels.J.dtype), result.values[-1]["h_c"]

@@ -13,7 +13,6 @@ from tehl_taichi.pressure.equations import Equations
 from tehl_taichi.pressure.isothermal import OneTemperature
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 
@@ -28,7 +27,7 @@ def film(law="limiting", name="smooth-line", **changes):
 
 def equations_of(description, nx, ny=0):
     """The equations of an isothermal film, and their levels."""
-    levels = Levels(description, Scales.of(description), nx, ny)
+    levels = Levels(description, nx, ny)
     return Equations(levels, OneTemperature(levels)), levels
 
 

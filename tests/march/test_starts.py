@@ -228,7 +228,7 @@ def test_what_took_long_by_turns_is_checked_in_time(monkeypatch):
 def touching(description, nx):
     from tehl_taichi.march.steady import solve_steady
 
-    found = solve_steady(description.replace(**{"grid.nx": nx, "grid.ny": 16}), Scales.of(description), nx, 0)
+    found = solve_steady(description.replace(**{"grid.nx": nx, "grid.ny": 16}), nx, 0)
     return found.report.converged, int(found.solver.levels.get(fields.TOUCH).sum())
 
 
@@ -321,7 +321,7 @@ def test_a_thick_film_starts_beside_a_short_inlet(changes):
 
     short = scene("smooth-line").replace(**{"speed": 5.0, "hertz_pressure": 6e8, "grid.x_min": -1.5, "thermal.on": False,
                                             **changes})
-    found = solve_steady(short, Scales.of(short), 64, 0)
+    found = solve_steady(short, 64, 0)
     assert found.report.converged and found.work < 1500
     assert domain_error(found.solver).gap < 1.4
     assert not found.solver.share_load()  # the grid carries what the oil before it leaves
@@ -332,7 +332,7 @@ def test_a_circle_starts_where_its_surfaces_slip_fast():
     from tehl_taichi.march.steady import solve_steady
 
     sliding = scene("mtm").replace(**{"srr": 2.0, "thermal.on": False, "grid.nx": 64, "grid.ny": 16})
-    found = solve_steady(sliding, Scales.of(sliding), 64, 16)
+    found = solve_steady(sliding, 64, 16)
     numbers = found.solver.levels.numbers
     assert found.report.converged and (numbers.G[:, fields.SHEAR] == numbers.shear).all()  # with the whole slip
 
@@ -498,7 +498,7 @@ def test_a_grid_is_looked_at_once_and_only_where_it_converged(monkeypatch, conve
 
     seen, report = [], SimpleNamespace(converged=converged)
 
-    def steady(scene, scales, nx, ny, look, full):
+    def steady(scene, nx, ny, look, full):
         look("solver", None, SimpleNamespace(converged=False))
         return SimpleNamespace(solver="solver", heat=None, report=report, moving=False, work=0,
                                values=[look("solver", None, report)])
@@ -513,9 +513,9 @@ def test_a_grid_is_looked_at_once_and_only_where_it_converged(monkeypatch, conve
     monkeypatch.setattr(start, "_spread", lambda first, *_: first)
     if not converged:
         with pytest.raises(NotConverged, match="stopped"):
-            start.steady_snapshot(scene("ball-on-disc"), SimpleNamespace(line=False))
+            start.steady_snapshot(scene("ball-on-disc"))
     else:
-        first = start.steady_snapshot(scene("ball-on-disc"), SimpleNamespace(line=False))
+        first = start.steady_snapshot(scene("ball-on-disc"))
         assert first is seen[0] and first.make_state() == {"P": 1.0} and first.unsettled == ""
     assert len(seen) == looks
 
@@ -530,7 +530,7 @@ def test_a_film_too_thin_for_a_grid_comes_to_the_next_in_time(taichi_cpu, monkey
     drawn = stability_scenes.random_cases(35, 42)
     (thin,) = stability.starts({name: one for name, one in drawn.items() if "42-34" in name}).values()
     thin = thin.replace(**{"thermal.on": False, "rheology.law": "newtonian"})  # by any law
-    found = steady.solve_steady(thin, Scales.of(thin), 1024, 0)
+    found = steady.solve_steady(thin, 1024, 0)
     assert found.report.converged and begun == [4 / 64]
 
 
@@ -589,7 +589,7 @@ def test_a_pressure_that_newton_does_not_find_again_comes_by_time_steps(monkeypa
     """From the Hertz pressure at other speeds it takes ten times as long (mtm at SRR 1: 95 of 105 s)."""
 
     line = scene("smooth-line").replace(**{"grid.nx": 64, "thermal.on": False})
-    solver = steady.solve_steady(line, Scales.of(line), 64, 0).solver
+    solver = steady.solve_steady(line, 64, 0).solver
     film_before, P = solver.levels.get(fields.H), solver.levels.get(fields.P)
     isothermal_start.put(solver, 0.97 * P, solver.H0 + 0.01)
     solve = isothermal_start.solve_from_table

@@ -12,7 +12,6 @@ from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.gradient import limited_gradient
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 pytestmark = pytest.mark.usefixtures("taichi_cpu")
 THIN = 1e4  # times as mobile as the oil around it
@@ -22,7 +21,7 @@ FACE = (THIN - 1) / np.log(THIN)  # logarithmic mean of the mobilities on both s
 @pytest.fixture(scope="module")
 def levels():
     description = scene("smooth-line").replace(**{"thermal.on": False})
-    return Levels(description, Scales.of(description), 32, 16)
+    return Levels(description, 32, 16)
 
 
 def gradients(levels, P, thin=None):

@@ -8,7 +8,6 @@ from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.inlet import Inlet, far
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.scene import hertz
-from tehl_taichi.scene.scales import Scales
 
 X, STEP = -8.0, 0.1  # a: thick gaps, whose bodies are rigid
 BALL = tehl.scene("ball-on-disc")
@@ -17,7 +16,7 @@ BALL = tehl.scene("ball-on-disc")
 def at_border(scene, x_min):
     """(y, film, border pressure) of the first column of a domain from x_min; film: of two rigid paraboloids."""
     scene = scene.replace(**{"grid.nx": 64, "grid.ny": 16, "grid.x_min": x_min, "grid.y_max": 1.3, "thermal.on": False})
-    levels = Levels(scene, Scales.of(scene), scene.grid.nx, scene.grid.ny)
+    levels = Levels(scene, scene.grid.nx, scene.grid.ny)
     H = levels.X**2 / 2 + levels.scales.curvature * levels.Y[:, None] ** 2 / 2
     inlet, found = Inlet(levels), np.zeros(H.shape)
     found[inlet.border] = inlet.without_heat(H, 0.0)
@@ -33,7 +32,7 @@ def flow_balance(q, H, step):
 def test_the_border_of_a_half_domain_is_half_of_that_of_the_whole(taichi_cpu):
     """The first column and, before the contact, the sides; not the plane of symmetry."""
     scene = BALL.replace(**{"grid.nx": 32, "grid.ny": 16, "grid.x_min": -2.0, "thermal.on": False})
-    half, whole = (Inlet(Levels(scene, Scales.of(scene), 32, rows, full)).border for rows, full in ((8, False), (16, True)))
+    half, whole = (Inlet(Levels(scene, 32, rows, full)).border for rows, full in ((8, False), (16, True)))
     assert np.array_equal(whole[8:], half) and np.array_equal(whole, whole[::-1])
     assert half[:, 0].all() and half[-1].sum() > 10 and half[:-1].sum() == 8
 
@@ -80,7 +79,7 @@ def test_the_gap_beyond_the_border_of_a_line_is_that_of_hertz():
 
 def test_hot_oil_at_the_border_is_thinner_beyond_it(taichi_cpu):
     scene = tehl.scene("smooth-line").replace(**{"grid.nx": 32})
-    levels = Levels(scene, Scales.of(scene), 32, 0)
+    levels = Levels(scene, 32, 0)
     levels.put(fields.P, 0.0)
     levels.put(fields.LE, -1.0)  # ln of its viscosity over that of the inlet
     assert Inlet(levels).warmth() == pytest.approx(np.exp(-1.0))

@@ -9,13 +9,12 @@ from tehl_taichi.pressure.isothermal import OneTemperature
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.newton import ROW_CAP, PressureSolver
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 
 def mismatch(description, warm=None, step=1e-5):
     """Largest difference of Jacobian times change and difference of residuals, over the largest of these, for changes of the
     pressure in a few long and short waves and of the rigid approach; with a time derivative in a moving frame."""
-    levels = Levels(description, Scales.of(description), 64, 16)
+    levels = Levels(description, 64, 16)
     film = OneTemperature(levels) if warm is None else FilmHeat(levels, 1e-6)
     solver, X, Y = PressureSolver(levels, film), levels.X[None, :], levels.Y[:, None]
     ends = (levels.X[-1] - X) * (X - levels.X[0]) / 4
@@ -92,7 +91,7 @@ def diagonals(turned):
     """The diagonal of a line whose walls switch: by tangents, and after a linearisation of the same state, or (turned) of the
     one with the opposite ripple."""
     description = scene("smooth-line").replace(**{"thermal.on": False, "srr": 0.12, "grid.nx": 64})
-    levels = Levels(description, Scales.of(description), 64, 0)
+    levels = Levels(description, 64, 0)
     solver, X = PressureSolver(levels, OneTemperature(levels)), levels.X[None, :]
 
     def linearised(ripple, again):

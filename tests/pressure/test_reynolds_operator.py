@@ -64,7 +64,7 @@ def test_manufactured_solution_of_the_reynolds_operator():
     description = scene("smooth-line").replace(**{"contact.hertz_pressure": 0.2e9, "speed": 0.5})
     errors = []
     for cells in (32, 64, 128):
-        levels = Levels(description, Scales.of(description), 2 * cells, cells)
+        levels = Levels(description, 2 * cells, cells)
         X, Y = levels.X[None, :], levels.Y[:, None]
         levels.numbers.set_rate(0.7)
         for row, values in zip((fields.P, fields.H), manufactured(X, Y)):
@@ -83,7 +83,7 @@ def test_lanes_beyond_the_last_row_count_nothing():
     """What laws make of their stale pressures need not be a number: a start at 20 deg C had a mass error of nan by it, on some
     machines."""
     line = scene("smooth-line").replace(**{"grid.nx": 32})
-    levels = Levels(line, Scales.of(line), 32, 0)
+    levels = Levels(line, 32, 0)
     levels.put(fields.GAP0, levels.smooth_gap())
     solver = PressureSolver(levels, OneTemperature(levels))
     assert from_nothing(solver).converged
@@ -99,7 +99,7 @@ def test_the_mass_error_of_a_line_does_not_depend_on_its_rows():
     """Outflow and flux have equal weights of the rows, in one row, a half and a whole domain."""
     line, found = scene("smooth-line"), []
     for ny, full in ((0, False), (8, False), (8, True)):
-        levels = Levels(line, Scales.of(line), 64, ny, full)
+        levels = Levels(line, 64, ny, full)
         levels.put(fields.GAP0, levels.smooth_gap() + 0.3)
         levels.put(fields.P, 0.1 * np.maximum(1 - levels.X**2, 0) * np.ones((ny + 1, 1)))
         solver = PressureSolver(levels, OneTemperature(levels))
@@ -115,7 +115,7 @@ def test_walls_carry_the_stress_of_the_pressure_gradient_along_and_across():
     """0.5 h dp/dx and 0.5 h dp/dy of a film H = 1, where P changes by 1 from node to node; cells are not square."""
     description = scene()
     s = Scales.of(description)
-    levels, found = Levels(description, s, 64, 8), np.zeros(4)
+    levels, found = Levels(description, 64, 8), np.zeros(4)
 
     @ti.kernel
     def read(G: Table, out: ti.types.ndarray(dtype=ti.f64, ndim=1)):

@@ -10,7 +10,6 @@ from tehl_taichi.pressure.isothermal import OneTemperature
 from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.storage_term import Storage, bdf, third_order
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 
 @pytest.mark.parametrize("lengths", [[0.3], [0.3, 0.2], [0.3, 0.2, 0.5]])
@@ -30,7 +29,7 @@ def test_backward_differences_of_equal_steps():
 def columns(nx, ny=0):
     """Levels of so many cells."""
     description = scene("pitch-line" if ny else "smooth-line").replace(**{"thermal.on": False})
-    return Levels(description, Scales.of(description), nx, ny)
+    return Levels(description, nx, ny)
 
 
 def followed(old, lengths, cells, start=0.0):

@@ -155,7 +155,7 @@ def warm_film(srr, upside_down=False):
     64 x 8 cells, and the tractions (4, ny+1, nx+1) of it."""
     description = scene("gear").replace(**{"thermal.on": True, "srr": srr, "grid.nx": 64, "grid.ny": 8})
     s = Scales.of(description)
-    levels = Levels(description, s, 64, 8)
+    levels = Levels(description, 64, 8)
     X, Y = levels.X[None, :] + 0 * levels.Y[:, None], levels.Y[:, None] + 0 * levels.X[None, :]
     P, h = np.maximum(0.25 - 0.08 * (X + 0.3) ** 2 - 0.06 * Y**2, 0.0), 0.3e-6 * (1 + 0.2 * X**2 + 0.1 * Y**2)
     touch = ((np.abs(X) < 0.1) & (Y < 0.3)) | ((P > 0) & (P < 0.01))

@@ -22,7 +22,7 @@ class WindowLevels(Levels):
         full = not scene.symmetric
         height = w.ny * w.dy / (2 if full else 1) * scales.a / scales.b
         domain = SimpleNamespace(x_min=0.0, x_max=w.nx * w.dx, y_max=height)
-        super().__init__(scene, scales, w.nx, w.ny, full, domain, COARSEST)
+        super().__init__(scene, w.nx, w.ny, full, scales, domain, COARSEST)
         if w.ny:
             self.Y = self.Y - self.Y[0] + w.y_min + w.row * w.dy
 

@@ -153,7 +153,7 @@ def effort(description, monkeypatch):
     monkeypatch.setattr(PressureSolver, "solve", solved)
     monkeypatch.setattr(FilmHeat, "solve", lambda *args, **options: (sweep(*args, **options), done.__iadd__([0, 0, 1]))[0])
     s = Scales.of(description)
-    found = solve_steady(description, s, description.grid.nx, 0 if s.line else description.grid.ny)
+    found = solve_steady(description, description.grid.nx, 0 if s.line else description.grid.ny)
     monkeypatch.undo()
     border = inlet.Inlet(found.solver.levels)
     assert found.report.converged or found.report.load_error > UNSHARED

@@ -25,7 +25,7 @@ def light(**changes):
 
 
 def solved(description):
-    return solve_steady(description, Scales.of(description), description.grid.nx, 0, lambda *_: None, False).solver
+    return solve_steady(description, description.grid.nx, 0, lambda *_: None, False).solver
 
 
 @pytest.mark.usefixtures("taichi_cpu")

@@ -21,7 +21,7 @@ THICK = {**NEWTONIAN, "hertz_pressure": 6e8, "speed": 10.0, "grid.nx": 64, "grid
 def film(description, height):
     """The Inlet of a table with the gap of the rigid bodies and a film of this height (a^2/R')."""
     s = Scales.of(description)
-    levels = Levels(description, s, description.grid.nx, 0 if s.line else description.grid.ny)
+    levels = Levels(description, description.grid.nx, 0 if s.line else description.grid.ny)
     levels.put(fields.H, levels.smooth_gap() + height)
     levels.put(fields.RHO, np.ones((levels.ny + 1, levels.nx + 1)))
     return Inlet(levels)
@@ -66,7 +66,7 @@ def test_of_a_line_it_is_the_integral_of_the_pressure_beyond(monkeypatch):
 def test_the_grid_and_the_oil_beyond_carry_the_load_together(name, share, changes):
     one = scene(name).replace(**{**THICK, **changes})
     s = Scales.of(one)
-    found = solve_steady(one, s, one.grid.nx, 0 if s.line else one.grid.ny)
+    found = solve_steady(one, one.grid.nx, 0 if s.line else one.grid.ny)
     v = found.solver.levels
     carried, beyond = np.sum(load_weights(v) * v.get(fields.P)), Inlet(v).load()
     assert found.report.converged and beyond > share * s.load

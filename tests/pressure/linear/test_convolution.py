@@ -11,7 +11,6 @@ from tehl_taichi.pressure.levels import Levels
 from tehl_taichi.pressure.linear import line_solver, schedule
 from tehl_taichi.pressure.linear.solver import Krylov
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 ACCURACY = {"f32": 1e-6, "f64": 1e-14}  # of the largest value; transforms by FFTW in single precision: 3e-7
 # scene, cells, whole domain; 112 and 28 have a factor 7 and need longer transforms
@@ -34,7 +33,7 @@ def levels_of(name, precision):
     cells = {"grid.nx": nx, "grid.ny": ny} if ny else {"grid.nx": nx}
     description = scene("ball-on-disc" if ellipse else builtin).replace(
         **{**ellipse, **cells, "thermal.on": False, "numerics.precision": precision})
-    return Levels(description, Scales.of(description), nx, ny, full)
+    return Levels(description, nx, ny, full)
 
 
 def of_table(levels, table, row, l=0):

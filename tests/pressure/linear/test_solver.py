@@ -12,7 +12,6 @@ from tehl_taichi.march.steady import solve_steady
 from tehl_taichi.pressure import fields
 from tehl_taichi.pressure.linear.gmres import PORTION, SCALARS
 from tehl_taichi.scene import scene
-from tehl_taichi.scene.scales import Scales
 
 LOAD = 0.03
 
@@ -21,7 +20,7 @@ def pressed(precision, sweep):
     """Solver of a steady contact pressed together a little, with its linear problem."""
     description = scene("gear").replace(**{"thermal.on": False, "rheology.law": "newtonian", "grid.nx": 64, "grid.ny": 16,
                                            "numerics.precision": precision, "numerics.sweep": sweep})
-    solver = solve_steady(description, Scales.of(description), 64, 16).solver
+    solver = solve_steady(description, 64, 16).solver
     solver.H0 -= 0.003
     solver._begin()
     solver._direction(0.1)
