@@ -48,7 +48,6 @@ _KEYS: Any = type("_KEYS", (*OWN, SharedKeys), {})  # those of every shape
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Feature(_KEYS):
     """Feature of a surface.
 

@@ -1,7 +1,6 @@
 """Pair of external involute gears as on a drawing: teeth, profile shifts, centre distance, tips, torque and speed."""
 
 import math
-from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.checks import missing_file, nearest
@@ -13,7 +12,6 @@ LARGEST = 15.0  # m, of a wheel: 91.5 was meant in mm
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class GearPair:
     """A pair of external involute gears; the pinion (1) drives the gear (2).
 

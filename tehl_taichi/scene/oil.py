@@ -1,6 +1,5 @@
 """Lubricants: laws and their numbers."""
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from tehl_taichi.errors import SceneError
@@ -53,7 +52,6 @@ def _beside(values, known):
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Oil(_OIL):
     """Lubricant; each law has its own numbers, and numbers of other laws have no effect.
 

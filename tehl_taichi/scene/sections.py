@@ -2,7 +2,6 @@
 
 import math
 import numbers
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Union
 
 from tehl_taichi.errors import SceneError
@@ -30,7 +29,6 @@ LARGEST_RADIUS_Y = 100.0  # m: a roller is nearly straight
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Contact:
     """Geometry and load: one of load, hertz_pressure or the Moes pair; 0 = not given.
 
@@ -87,7 +85,6 @@ class Contact:
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Body:
     """An elastic half-space; default: steel (Everitt 2018).
 
@@ -117,7 +114,6 @@ class Body:
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Operation:
     """Surface speeds; in a file or a change u_a and u_b in m/s may replace u_m and srr.
 
@@ -157,7 +153,6 @@ _RHEOLOGY: Any = section("_RHEOLOGY", law=choice("limiting", "shear law of the f
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Rheology(_RHEOLOGY):
     """Shear law of the film and friction of solid contact.
 
@@ -190,7 +185,6 @@ class Rheology(_RHEOLOGY):
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Thermal:
     """Energy equation; without it the film has the inlet temperature.
 
@@ -222,7 +216,6 @@ BOTH = "both"  # as fatigue.surfaces
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Fatigue:
     """Fatigue index; kappa and endurance are example values, set those of your material.
 
@@ -322,7 +315,6 @@ class Fatigue:
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Grid:
     """Cells and extent of the grid, in half-widths a along x and b along y (b = a unless elliptic).
 
@@ -352,7 +344,6 @@ class Grid:
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Time:
     """Path of feature.x = 0, the centre of a first feature there, and length of a step.
 
@@ -379,7 +370,6 @@ class Time:
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Numerics:
     """Tolerances and limits of the pressure solver, and error estimates.
 
@@ -411,7 +401,6 @@ class Numerics:
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Output:
     """Contents of the store.
 
@@ -430,7 +419,6 @@ class Output:
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class Zoom:
     """A fine window that moves with the feature through the run; features on both bodies have two.
 

@@ -9,6 +9,7 @@ import functools
 import inspect
 import math
 from dataclasses import dataclass
+from typing import dataclass_transform
 
 from tehl_taichi.values import checks, units
 from tehl_taichi.values.coerce import shown
@@ -290,10 +291,12 @@ def kinds(cls):
     return {f.name: f.metadata["kind"] for f in dataclasses.fields(cls) if "kind" in f.metadata}
 
 
+@dataclass_transform(frozen_default=True)
 def documented(cls):
-    """Class decorator: adds the declared keys to the docstring as parameters; the repr shows the keys that differ from their
-    defaults; an unknown key is refused (:func:`known_keys`).
+    """Class decorator: makes a frozen dataclass; adds the declared keys to the docstring as parameters; the repr shows the keys
+    that differ from their defaults; an unknown key is refused (:func:`known_keys`).
     """
+    cls = dataclasses.dataclass(frozen=True, repr=False)(cls)
     about, mark, examples = cls.__doc__.partition("\n\n    Examples\n")
     rows = "".join(f"\n    {key} : {_default(cls, key)}\n        {_meaning(kind)}" for key, kind in kinds(cls).items())
     cls.__doc__ = f"{about.rstrip()}\n\n    Parameters\n    ----------{rows}{mark}{examples}"

@@ -1,7 +1,6 @@
 """A rolling bearing as in a catalogue or on a drawing: elements, pitch circle, grooves, load and speed."""
 
 import math
-from dataclasses import dataclass
 
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.quantity import check, choice, count, documented, quantity
@@ -13,7 +12,6 @@ OF_BALLS, OF_ROLLERS = ("osculation_inner", "osculation_outer"), ("length", "cro
 
 
 @documented
-@dataclass(frozen=True, repr=False)
 class RollingBearing:
     """A single-row ball or roller bearing under a radial and an axial load; the inner ring turns at `speed`.
 
