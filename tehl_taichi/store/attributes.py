@@ -7,17 +7,13 @@ from tehl_taichi.values.coerce import shown
 NUMBERS = "_m", "_Pa", "_C", "_K", "_s", "_deg", "_error", "_fraction", "Fi_max", "ripple", "steps", "cycles", "kappa_F"
 LISTS = ("warnings", "warning_codes", "results", "outputs")  # of texts
 KINDS = {dict: "a table", list: "a list", str: "text", int: "a whole number", float: "a number", bool: "true or false"}
-SUMMARY = {"scene": str, "version": str, "wall_s": float, "compile_s": float, "steps": int, "grid": dict, "cells": dict,
-           "hertz": dict, "left_out": list, "steady": dict, "work": dict, "crowding": list, "clamps": dict, "warnings": list,
-           "transient": dict, "fatigue": dict, "fatigue_by_surface": dict, "surface": str, "error": dict,
-           "unknown": dict, "run_in": dict, "below": dict, "averaged": dict, "von_mises": dict, "life": dict,
-           "contact_alone": dict, "contact_alone_by_surface": dict, "searched_m": list, "pit_angles_deg": list,
+NEEDED = {"scene": str, "version": str, "wall_s": float, "compile_s": float, "steps": int, "grid": dict, "hertz": dict,
+          "left_out": list, "steady": dict, "work": dict, "clamps": dict, "warnings": list}  # entries of every summary
+SUMMARY = {**NEEDED, "cells": dict, "crowding": list, "transient": dict, "fatigue": dict, "fatigue_by_surface": dict,
+           "surface": str, "error": dict, "unknown": dict, "run_in": dict, "below": dict, "averaged": dict, "von_mises": dict,
+           "life": dict, "contact_alone": dict, "contact_alone_by_surface": dict, "searched_m": list, "pit_angles_deg": list,
            "criterion": str, "domain": dict, "error_parts": dict, "peclet": dict, "warning_codes": list, "warning_data": list,
            "unknown_codes": dict}
-PARTS = {"transient", "run_in", "fatigue", "fatigue_by_surface", "surface", "cells", "crowding", "error", "unknown", "below",
-         "averaged", "von_mises", "life", "contact_alone", "contact_alone_by_surface", "searched_m",
-         "pit_angles_deg", "criterion", "domain", "error_parts", "peclet", "warning_codes",
-         "warning_data", "unknown_codes"}  # that some runs do not have
 TABLES = ("", "hertz.", "steady.", "transient.", "fatigue.", "fatigue.below.", "fatigue.contact_alone.", "contact_alone.")
 STEADY = ("h_c_m", "h_min_m", "p_max_Pa", "error", "unknown")
 
@@ -51,7 +47,7 @@ def _parsed(text):
 
 
 def _missing(summary):
-    if missing := [name for name in SUMMARY if name not in PARTS and name not in summary]:
+    if missing := [name for name in NEEDED if name not in summary]:
         return f"{missing[0]!r} is missing"
     steady = summary["steady"]
     missing = [name for name in STEADY if name not in steady] if isinstance(steady, dict) else []
