@@ -5,6 +5,8 @@ from typing import Any
 
 import typer
 
+from tehl_taichi.errors import SceneError
+
 NONE_AT_0 = ("bending_limit", "torsion_limit", "inclusion")  # 0 in a scene: not given
 AUTO = "auto"  # as in tehl_taichi.values.quantity, which takes longer to import
 
@@ -35,7 +37,6 @@ def metres(option, value, low=-math.inf):
 
 def refuse_zeros(options):
     """Refuse options {name: value} with 0 that could mean "not given" only. Raises SceneError."""
-    from tehl_taichi.errors import SceneError
     from tehl_taichi.values import units
 
     for name in NONE_AT_0:

@@ -9,6 +9,8 @@ from tehl_cli import usual_options as usual
 from tehl_cli.live_display import say
 from tehl_cli.stdout import put
 
+import tehl_taichi as tehl
+
 
 def animate(
     store: Path = typer.Argument(..., help="store of a run with a feature, finished or not"),
@@ -26,8 +28,6 @@ def animate(
 
     Examples: `tehl animate runs/gear-1.zarr` · `tehl animate runs/gear-1.zarr --out film.mp4 --map pressure --fps 25`
     """
-    import tehl_taichi as tehl
-
     with FrameBar(quiet) as bar:
         path = tehl.animate(store, out, format=format, frames=frames, fps=fps, dpi=dpi, width=width, shown=shown, force=force,
                             progress=bar.show)

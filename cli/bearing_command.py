@@ -12,6 +12,9 @@ from tehl_cli.missing_results import refuse_missing
 from tehl_cli.scene_options import changes_of
 from tehl_cli.shared_options import sharing
 from tehl_cli.stdout import print_json, put
+from tehl_cli.tables import list_table, warning_lines
+
+import tehl_taichi as tehl
 
 
 @sharing(2, loads, contacts)
@@ -83,8 +86,6 @@ def _compute(which, context, own, scene, figure, as_json, quiet, curves, format,
 
 def _compute_bearing(which, own, live, oil, temperature, thermal, grid, set_, out, **shared):
     """Compute the bearing that the options describe."""
-    import tehl_taichi as tehl
-
     dimensions = {**own, **{key: shared.pop(key) for key in DIMENSIONS}}
     changes = changes_of({"oil.name": oil, "temperature": temperature, "thermal.on": thermal}, grid, set_ or [])
     return tehl.bearing(which, dimensions=dimensions, changes=changes, folder=out, progress=live, **shared)
@@ -92,8 +93,6 @@ def _compute_bearing(which, own, live, oil, temperature, thermal, grid, set_, ou
 
 def print_bearing(found):
     """Print the tables of a bearing, its answer, its assumptions, and the paths of its scenes."""
-    from tehl_cli.tables import list_table, warning_lines
-
     from tehl_taichi.report import bearing_page
     from tehl_taichi.runs.bearing import bearing_table
 

@@ -2,6 +2,8 @@
 
 from tehl_cli.amount import amount, metres
 
+from tehl_taichi.errors import SceneError
+
 DENT = "DEPTH,WIDTH,rim=HEIGHT in m, as in 10e-6,0.3e-3,rim=1.2e-6 or 10um,0.3mm,rim=1.2um"
 
 
@@ -19,8 +21,6 @@ def dent_of(text):
 
 def _parts(text):
     """([depth, width], {key: value}) of a --dent."""
-    from tehl_taichi.errors import SceneError
-
     pairs = [part.rpartition("=") for part in text.split(",")]
     plain = [metres("--dent", amount(value)) for key, _, value in pairs if not key]
     named = {key.strip(): metres("--dent", amount(value)) for key, _, value in pairs if key}
@@ -41,8 +41,6 @@ def scan_of(path, unit, pixel):
 
 def feature_of(dent, scan, unit, pixel):
     """Feature of --dent or --scan, None without them."""
-    from tehl_taichi.errors import SceneError
-
     if dent is not None and scan is not None:
         raise SceneError(f"--dent {dent} and --scan {scan} contradict each other: give one of them")
     for word, value in (("--unit", unit), ("--pixel", pixel)):

@@ -7,11 +7,16 @@ from pathlib import Path
 from typing import Optional
 
 import typer
-from tehl_cli.bench_options import FORCE, JSON, OUT, QUICK, THREADS, WRITE, cores
+from tehl_cli.bench_options import FORCE, JSON, OUT, QUICK, THREADS, WRITE
 from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json
 from tehl_cli.suite_results import Results
+from tehl_cli.tables import list_table
+
+from tehl_taichi.engine import runtime
+from tehl_taichi.engine.cores import available
+from tehl_taichi.errors import StoreError
 
 BARS = ("bars", "null", "hold, %", "ratio", "bar", "error")
 
@@ -33,7 +38,6 @@ def accuracy(
     """
     from tehl_taichi.profiles.coverage import PARTS
 
-    from tehl_taichi.engine import runtime
     from tehl_taichi.values.checks import choice
 
     choice("--only", only, (None, "errors", *PARTS))
@@ -52,14 +56,13 @@ def accuracy(
     if errors:
         found["errors"] = _accuracy(errors, quick, as_json, keep)
     if bars:
-        found[name] = _coverage(bars, seed, quick, judge, threads or cores(), as_json)
+        found[name] = _coverage(bars, seed, quick, judge, threads or available(), as_json)
     if as_json:
         print_json(found)
 
 
 def _check_package():
     """Raise StoreError if the errors cannot be written into the package."""
-    from tehl_taichi.errors import StoreError
     from tehl_taichi.scene import grid_for_error
 
     if not os.access(grid_for_error.FILE.parent, os.W_OK):
@@ -67,7 +70,6 @@ def _check_package():
 
 
 def _accuracy(results, quick, as_json, keep):
-    from tehl_cli.tables import list_table
     from tehl_taichi.profiles import accuracy as suite
     from tehl_taichi.profiles import measure
 
@@ -92,11 +94,8 @@ def _accuracy(results, quick, as_json, keep):
 
 
 def _coverage(results, seed, quick, judge, threads, as_json):
-    from tehl_cli.tables import list_table
     from tehl_taichi.profiles import coverage as suite
     from tehl_taichi.profiles import measure
-
-    from tehl_taichi.errors import StoreError
 
     path, name = results.file("json"), results.name
     if not judge:

@@ -5,11 +5,14 @@ from typing import Optional
 
 import typer
 from tehl_cli.bench_accuracy import accuracy
-from tehl_cli.bench_options import FORCE, JSON, OUT, QUICK, THREADS, WORKERS, WRITE, Heat, cores, folder
+from tehl_cli.bench_options import FORCE, JSON, OUT, QUICK, THREADS, WORKERS, WRITE, Heat, folder
 from tehl_cli.bench_stability import stability
 from tehl_cli.live_display import say
 from tehl_cli.single_options import Command
 from tehl_cli.suite_results import Results, table, texts
+from tehl_cli.tables import list_table
+
+from tehl_taichi.engine.cores import available
 
 
 def conclusions(
@@ -28,7 +31,6 @@ def conclusions(
 
     Example: `tehl bench conclusions --quick`
     """
-    from tehl_cli.tables import list_table
     from tehl_taichi.profiles import conclusions as suite
     from tehl_taichi.profiles import zoomed_conclusions
 
@@ -65,7 +67,6 @@ def verdict(
 
     Example: `tehl bench verdict`
     """
-    from tehl_cli.tables import list_table
     from tehl_taichi.profiles import verdict as suite
 
     from tehl_taichi.values.checks import choice
@@ -95,7 +96,6 @@ def cracks(
     workers: int = WORKERS,
 ):
     """Compute crack paths from the loads of a passage, with errors. Example: `tehl bench cracks --quick`"""
-    from tehl_cli.tables import list_table
     from tehl_taichi.profiles import cracks as suite
 
     results = Results(out, "cracks", force, more=("md",))
@@ -116,7 +116,6 @@ def zoom(
     threads: Optional[int] = THREADS,
 ):
     """Compare runs with a fine window to runs that are as fine everywhere. Example: `tehl bench zoom --quick`"""
-    from tehl_cli.tables import list_table
     from tehl_taichi.profiles import zoom as suite
 
     results = Results(out, "zoom", force, write=write)
@@ -136,7 +135,7 @@ def speed(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: boo
     from tehl_taichi.profiles import speed as suite
 
     results = Results(out, "speed", force, write=write)
-    rows = suite.run(quick, threads or cores(), say)
+    rows = suite.run(quick, threads or available(), say)
     details = {"step_ms": "step {:.1f} ms", "convolutions": "{:.0f} convolutions", "cycles": "{:.1f} Krylov",
                "memory_mb": "{:.0f} MB", "planes_per_s_core": "{:.2g} planes/s core"}
     shown = [{**row, "detail": ", ".join(form.format(row[key]) for key, form in details.items() if key in row)} for row in rows]
@@ -151,7 +150,7 @@ def scaling(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: b
     from tehl_taichi.profiles import scaling as suite
 
     results = Results(out, "scaling", force, write=write)
-    rows = suite.run(quick, threads or cores(), thermal, say)
+    rows = suite.run(quick, threads or available(), thermal, say)
     columns = {"nx": "{}", "ny": "{}", "threads": "{}", "step_ms": "{:.1f}", "speed_up": "{:.2f}", "node_ns": "{:.0f}",
                "newton": "{:.1f}", "cycles": "{:.1f}", "memory_mb": "{:.0f}", "node_B": "{:.0f}"}
     results.show("scaling", rows, columns, lambda plt: suite.chart(plt, rows), as_json)
@@ -176,7 +175,8 @@ def profile(out: Path = OUT, quick: bool = QUICK, as_json: bool = JSON, force: b
     from tehl_taichi.profiles import profile as suite
 
     results = Results(out, "profile", force, write=write)
-    stages, kernels, numbers = measure.fresh(threads or cores(), suite.run, *(suite.QUICK if quick else suite.FULL), thermal)
+    stages, kernels, numbers = measure.fresh(threads or available(), suite.run, *(suite.QUICK if quick else suite.FULL),
+                                             thermal)
     columns = {"what": "{}", "calls": "{:.1f}", "ms": "{:.2f}", "limit_ms": "{:.2f}", "MB": "{:.1f}"}
     results.documented(columns, texts(stages, columns))
     if not as_json:

@@ -20,10 +20,3 @@ THREADS = typer.Option(None, min=1, max=1024, help=usual.ALL_CORES)
 Heat = Annotated[bool, typer.Option("--thermal/--isothermal", help="with or without temperatures")]
 WRITE = typer.Option(False, "--write", help="replace the suite's table in docs/performance.md (of the current folder)")
 WORKERS = typer.Option(1, min=1, help="number of processes, which share the cores")
-
-
-def cores():
-    """Number of cores available to this process."""
-    from tehl_taichi.engine.cores import available
-
-    return available()

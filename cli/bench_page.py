@@ -6,6 +6,11 @@ import sys
 import textwrap
 from pathlib import Path
 
+from tehl_taichi import __version__
+from tehl_taichi.commit import commit
+from tehl_taichi.disk import files
+from tehl_taichi.errors import StoreError
+
 PAGE, PAGES = Path("docs/performance.md"), {"verdict": Path("docs/strength.md")}  # in the current folder; of other suites
 END, WIDTH = "<!-- bench end -->", 130
 OWN = ("--write", "--force", "--json", "--quiet", "--keep")  # options that change no figure
@@ -28,8 +33,6 @@ def write(name, columns, rows, keys=0):
     rows: texts; keys: number of leading cells that identify a row; old rows that are not among the new ones stay.
     """
     from tehl_taichi.profiles import measure
-
-    from tehl_taichi.disk import files
 
     before, now, after = _split_page(name)
     old = _rows(now)[2:] if keys else []
@@ -59,9 +62,6 @@ def _cell(text):
 
 def _split_page(name):
     """(page up to the start mark of a suite's table, the table, page from its end mark)."""
-    from tehl_taichi.disk import files
-    from tehl_taichi.errors import StoreError
-
     mark, page = f"<!-- bench: {name} -->", of(name)
     with files.disk_errors(page, "cannot read"):
         text = files.text(page)
@@ -75,9 +75,6 @@ def _split_page(name):
 def _caption(more=""):
     """Caption: command, version, commit, machine and date; more: a further sentence."""
     from tehl_taichi.profiles import measure
-
-    from tehl_taichi import __version__
-    from tehl_taichi.commit import commit
 
     command = shlex.join(["tehl", *_significant_words(sys.argv[1:])])
     return textwrap.fill(f"`{command}`, version {__version__}, commit {commit()}; {measure.machine()}.{more}", WIDTH,

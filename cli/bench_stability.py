@@ -9,6 +9,8 @@ from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import say
 from tehl_cli.suite_results import Results, table
 
+from tehl_taichi.errors import SceneError
+
 
 def stability(
     context: typer.Context,
@@ -71,8 +73,6 @@ def _say_idle(context, confirm, drawn):
 
 def _check_any(chosen, match, starts, names):
     """Refuse a choice without scenes. SceneError."""
-    from tehl_taichi.errors import SceneError
-
     if not chosen:
         kind = "scene with temperatures" if starts else "scene"
         raise SceneError(f"--match {match!r} is in the name of no {kind}; names: {', '.join(names[:3])}, ...")
@@ -120,7 +120,6 @@ def _finish(results, found, title, as_json):
 
 def _confirm(results, chosen, as_json, workers, threads, again):
     from tehl_taichi.profiles import confirmed_starts
-
 
     found = []
     for one in confirmed_starts.confirm(chosen, workers, threads, again):

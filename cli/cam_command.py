@@ -11,6 +11,9 @@ from tehl_cli.live_display import Live, say
 from tehl_cli.missing_results import refuse_missing
 from tehl_cli.scene_options import changes_of
 from tehl_cli.stdout import print_json
+from tehl_cli.tables import print_places
+
+import tehl_taichi as tehl
 
 
 def cam(
@@ -34,7 +37,6 @@ def cam(
 
     Examples: `tehl cam cam.csv --oil mineral-vg100 --temperature 90` · `tehl cam cam.csv --dent 2e-6,0.2e-3,rim=0.3e-6`
     """
-    import tehl_taichi as tehl
     from tehl_taichi.store.load_scene import find
     from tehl_taichi.view.figures import folder_figure
     from tehl_taichi.view.figures.figure_style import FigureStyle
@@ -54,8 +56,6 @@ def cam(
 
 def print_cam(found):
     """Print a cam."""
-    from tehl_cli.tables import print_places
-
     from tehl_taichi.report import cam_page
     from tehl_taichi.runs.cam.cam_columns import tables
 

@@ -2,6 +2,9 @@
 
 from tehl_cli.stdout import put
 
+from tehl_taichi import __released__, __version__
+from tehl_taichi.commit import commit
+
 TITLE = "tehl_taichi: transient elastohydrodynamic contacts with surface features, and the fatigue they cause"
 AUTHORS = "the tehl_taichi developers"
 
@@ -16,9 +19,6 @@ def cite():
 
 def bibtex():
     """BibTeX entries with version, year and commit."""
-    from tehl_taichi import __released__, __version__
-    from tehl_taichi.commit import commit
-
     return f"""@software{{tehl_taichi,
   title = {{{TITLE}}},
   author = {{{{{AUTHORS}}}}},

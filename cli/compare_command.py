@@ -9,8 +9,11 @@ from tehl_cli import usual_options as usual
 from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json, put
+from tehl_cli.tables import list_table
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.values.digits import number_of
+from tehl_taichi.values.file_ending import ending
 
 LONG = 60  # letters of a value, as of the contents of a table
 
@@ -54,9 +57,6 @@ def compare(
 
 def _check_format(context, out, format):
     """Refuse a typed --format that the ending of --out contradicts. SceneError."""
-    from tehl_taichi.errors import SceneError
-    from tehl_taichi.values.file_ending import ending
-
     typed = context and context.get_parameter_source("format").name == "COMMANDLINE"
     if typed and out and ending(out) not in ("", f".{format}"):
         raise SceneError(f"--out {out} does not end in .{format}; omit --format, or choose another --out")
@@ -69,8 +69,6 @@ def _free_figure(folder, format, force):
 
 
 def _scenes(found):
-    from tehl_cli.tables import list_table
-
     if not found.differs:
         return put("the settings are identical")
     rows = [(_with_unit(key), *map(_shown, values)) for key, values in found.differs.items()]
@@ -79,8 +77,6 @@ def _scenes(found):
 
 def _results(found):
     """Print the rows that differ, with the change between two runs; then one line with those that do not."""
-    from tehl_cli.tables import list_table
-
     pair, lines = len(found.names) == 2, found.lines
     rows = [(line.what, *line.values, *[line.change] * pair) for line in lines if not line.same]
     if rows:
@@ -92,8 +88,6 @@ def _results(found):
 
 def _places(found):
     """Print the quantities that differ somewhere, a row per place; then one line with those that do not."""
-    from tehl_cli.tables import list_table
-
     pair, unequal = len(found.tables) == 2, found.unequal()
     rows = [(row.quantity.heading, row.place.words, *row.texts, *[row.change] * pair)
             for row in found.rows if row.name in unequal]

@@ -9,6 +9,7 @@ from tehl_cli.amount import number
 from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json, put
+from tehl_cli.tables import list_table
 
 
 def crack(
@@ -77,8 +78,6 @@ def _share(oil):
 
 
 def _show(summary, as_json):
-    from tehl_cli.tables import list_table
-
     if as_json:
         print_json(summary)
         return

@@ -7,6 +7,9 @@ import typer
 from tehl_cli.amount import amount, metres
 from tehl_cli.stdout import put
 
+import tehl_taichi as tehl
+from tehl_taichi.errors import SceneError
+
 
 def export(
     store: Path = typer.Argument(..., help="store of a run, finished or not"),
@@ -22,7 +25,6 @@ def export(
 
     Examples: `tehl export runs/gear-1.zarr --at -0.5 --at 0.5 --point=-37e-6,0` · `tehl export runs/gear-1.zarr --format vtk`
     """
-    import tehl_taichi as tehl
     from tehl_taichi.runs.open_results import open_run
 
     points = [_point(text) for text in point or ()] or ()
@@ -30,8 +32,6 @@ def export(
 
 
 def _point(text):
-    from tehl_taichi.errors import SceneError
-
     parts = [amount(part) for part in text.split(",")]
     if len(parts) != 2:
         raise SceneError(f"--point {text!r} must be two numbers in m, separated by a comma, as -37e-6,0 or -37um,0")

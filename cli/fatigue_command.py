@@ -8,6 +8,9 @@ from tehl_cli.fatigue_options import with_fatigue_options
 from tehl_cli.idle_options import say_no_figure
 from tehl_cli.live_display import Live, say
 from tehl_cli.stdout import print_json
+from tehl_cli.tables import answer, list_table
+
+from tehl_taichi.engine import runtime
 
 
 @with_fatigue_options
@@ -23,7 +26,6 @@ def fatigue(
 
     Example: `tehl fatigue runs/gear-1.zarr --kappa 0.25 --endurance 450e6 --to-x 0.5`
     """
-    from tehl_taichi.engine import runtime
     from tehl_taichi.fatigue.overrides import changed
     from tehl_taichi.runs.open_results import open_run
     from tehl_taichi.runs.summary import life
@@ -55,8 +57,6 @@ def _doubts(scene, constants):
 
 
 def _show(result, passages, as_json):
-    from tehl_cli.tables import answer, list_table
-
     from tehl_taichi.fatigue import judged_surfaces
     from tehl_taichi.runs.summary.summary_rows import fatigue_rows, life_rows
 

@@ -11,6 +11,9 @@ from tehl_cli.live_display import Live, say
 from tehl_cli.missing_results import refuse_missing
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json
+from tehl_cli.tables import print_places
+
+import tehl_taichi as tehl
 
 
 def flank(
@@ -41,7 +44,6 @@ def flank(
 
     Examples: `tehl flank fzg-c --torque 265.1` · `tehl flank my_gears.toml --on gear --steady` · `tehl flank table.csv`
     """
-    import tehl_taichi as tehl
     from tehl_taichi.store.load_scene import find
     from tehl_taichi.view.figures import folder_figure
     from tehl_taichi.view.figures.figure_style import FigureStyle
@@ -83,8 +85,6 @@ def _place(text):
 
 def print_flank(found):
     """Print a flank."""
-    from tehl_cli.tables import print_places
-
     from tehl_taichi.report import flank_page
     from tehl_taichi.runs.flank.flank_columns import tables
 

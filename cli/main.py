@@ -25,6 +25,8 @@ from tehl_cli.steels_command import steels
 from tehl_cli.sweep_command import sweep
 from tehl_cli.traction_command import traction
 
+from tehl_taichi import __version__
+from tehl_taichi.commit import commit
 from tehl_taichi.errors import Interrupted, stopped, typed_options
 
 __all__ = ["app", "main"]
@@ -97,9 +99,6 @@ def options(version: bool = typer.Option(False, "--version", help="print the ver
 def _print_version():
     from importlib.metadata import version
     from platform import python_version
-
-    from tehl_taichi import __version__
-    from tehl_taichi.commit import commit
 
     print(f"tehl_taichi {__version__}, commit {commit()}, Python {python_version()}, taichi {version('taichi')}")
     raise typer.Exit()

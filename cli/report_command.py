@@ -10,6 +10,9 @@ from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import Live
 from tehl_cli.stdout import put
 
+import tehl_taichi as tehl
+from tehl_taichi.engine import runtime
+
 
 @with_fatigue_options
 def report(
@@ -32,9 +35,6 @@ def report(
     Examples: `tehl report runs/gear-1.zarr --open` · `tehl report runs/fzg-c-1 --out flank.html` ·
     `tehl report runs/gear-1.zarr --bending-limit 600e6 --torsion-limit 390e6 --to-x 0.5`
     """
-    import tehl_taichi as tehl
-    from tehl_taichi.engine import runtime
-
     runtime.check(threads=threads)
     if all(value is None for value in constants.values()):
         say_idle(context, "only a search with other constants computes", "threads")

@@ -10,8 +10,12 @@ from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import Live, say
 from tehl_cli.scene_options import GRIDS, changes_of, check_rows
 from tehl_cli.stdout import print_json, put
+from tehl_cli.tables import summary_table
 from tehl_cli.timing import print_budget, time_budget
 
+import tehl_taichi as tehl
+from tehl_taichi.engine import runtime
+from tehl_taichi.errors import SceneError
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
 
@@ -60,7 +64,6 @@ def run(
     Numbers may have a unit. Examples: `tehl run --srr -0.12` · `tehl run dent --grid coarse --load 900N/mm` ·
     `tehl run my.toml --set feature.height=1um`
     """
-    import tehl_taichi as tehl
     from tehl_taichi.runs import single_run, zoom_store
     from tehl_taichi.store.load_scene import find_changed
 
@@ -109,8 +112,6 @@ def resume(
 
     Example: `tehl resume runs/gear-1.zarr`
     """
-    import tehl_taichi as tehl
-    from tehl_taichi.engine import runtime
     from tehl_taichi.runs.open_results import open_run
 
     before = open_run(store)
@@ -140,8 +141,6 @@ def zoom(
 
     Example: `tehl zoom runs/gear-1.zarr --factor 4`
     """
-    import tehl_taichi as tehl
-
     with Live(quiet, False) as live, time_budget(live if timing else None) as budget:
         done = tehl.zoom(store, factor, threads=threads, progress=live)
     _print(done, as_json, budget=budget)
@@ -149,8 +148,6 @@ def zoom(
 
 def _print(run, as_json, printed=(), budget=None):
     """Print the summary of a run; printed: warnings that were printed before the run; budget: its TimeBudget or None."""
-    from tehl_cli.tables import summary_table
-
     timing = {"timing_s": dict(budget.spent)} if budget else {}
     print_json({**run.summary, **timing}) if as_json else summary_table(run.summary, printed)
     if budget and not as_json:
@@ -184,7 +181,7 @@ def _print_time(done):
 
 def _before_window(context, changes, description):
     """Scene without the window that `--zoom auto` chooses after the run; zoom.factor contradicts it: SceneError."""
-    from tehl_taichi.scene import SceneError, idle_keys, zoom_room
+    from tehl_taichi.scene import idle_keys, zoom_room
 
     if "zoom.factor" in changes:
         raise SceneError(f"--zoom auto and zoom.factor = {changes['zoom.factor']} contradict each other: give one of them")
@@ -199,7 +196,6 @@ def _on_grid_for(target, changes, description):
     """Scene on the grid that a target error needs."""
     if target is None:
         return description
-    from tehl_taichi.scene import SceneError
     from tehl_taichi.scene.grid_for_error import reaching
 
     if {"grid.nx", "grid.ny"} & changes.keys():
@@ -211,8 +207,6 @@ def _on_grid_for(target, changes, description):
 
 
 def _share(text):
-    from tehl_taichi.scene import SceneError
-
     try:
         value = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
     except ValueError:

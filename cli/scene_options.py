@@ -1,5 +1,11 @@
 """Changes of a scene by command options and `--set`."""
 
+import tomllib
+
+from tehl_cli.amount import refuse_zeros
+
+from tehl_taichi.errors import SceneError
+
 GRIDS = {"coarse": (128, 32), "medium": (256, 64), "fine": (512, 128)}
 
 # options by another name than their key
@@ -11,8 +17,6 @@ NAMES = {"oil.name": "oil", "zoom.factor": "zoom"}  # of options that are not th
 
 def changes_of(options, grid, settings):
     """{full key: value} of the used options and --set; SceneError if two of them contradict each other."""
-    from tehl_cli.amount import refuse_zeros
-
     from tehl_taichi.scene.aliases import resolve
 
     refuse_zeros(options)
@@ -31,7 +35,6 @@ def _typed(key, value):
 def _grid(text):
     if text is None:
         return {}
-    from tehl_taichi.scene import SceneError
     from tehl_taichi.values.checks import nearest
 
     try:
@@ -50,8 +53,6 @@ def check_rows(grid, changes, description):
     """
     if grid is None or "grid.ny" in _grid(grid) or description().one_dimensional:
         return
-    from tehl_taichi.scene import SceneError
-
     nx = changes["grid.nx"]
     raise SceneError(f"--grid {grid} needs a scene in which nothing varies along y; allowed for this scene: {', '.join(GRIDS)} "
                      f"or NXxNY, as in {nx}x{nx // 4}")
@@ -59,8 +60,6 @@ def check_rows(grid, changes, description):
 
 def _settings(pairs):
     """(words, key, value) of every --set."""
-    from tehl_taichi.scene import SceneError
-
     out = []
     for pair in pairs:
         key, equals, text = pair.partition("=")
@@ -72,8 +71,6 @@ def _settings(pairs):
 
 def _value(text):
     """Value of a --set by the rules of TOML; if it is no TOML value, the text itself."""
-    import tomllib
-
     try:
         return tomllib.loads(f"v = {text}")["v"]
     except (ValueError, RecursionError):

@@ -6,17 +6,24 @@ from typing import Any, Optional
 import typer
 from tehl_cli import usual_options as usual
 from tehl_cli.amount import metres, number
+from tehl_cli.bearing_command import print_bearing
+from tehl_cli.cam_command import print_cam
+from tehl_cli.flank_command import print_flank
 from tehl_cli.live_display import say
-from tehl_cli.stdout import put
+from tehl_cli.stdout import print_json, put
+from tehl_cli.tables import history_table, list_table, print_wrapped, summary_table, warning_lines
 
+import tehl_taichi as tehl
+from tehl_taichi.errors import SceneError
+from tehl_taichi.laws.criteria import CRITERIA
+from tehl_taichi.laws.hardness import RELATIONS
+from tehl_taichi.values import plugins
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
 
 
 def scenes():
     """List the built-in scenes and the feature shapes."""
-    from tehl_cli.tables import list_table
-
     from tehl_taichi.scene import BUILT_INS
     from tehl_taichi.scene.feature import SHAPES, USED_BY
 
@@ -28,8 +35,6 @@ def scenes():
 
 def oils():
     """List the named oils with viscosity at p = 0, pressure-viscosity coefficient and source."""
-    from tehl_cli.tables import list_table, print_wrapped
-
     from tehl_taichi.scene.named_oils import NAMED
 
     list_table("named oils; at p = 0: eta in mPa s at 40 and 100 C, alpha in 1/GPa at 40 C",
@@ -43,12 +48,8 @@ def oils():
 
 def laws():
     """List the laws of oil and friction, the fatigue criteria and relations to hardness, with their constants and sources."""
-    from tehl_cli.tables import list_table
-
     from tehl_taichi.laws.choices import ALONE, CHOICES
-    from tehl_taichi.laws.criteria import CRITERIA
     from tehl_taichi.laws.hardening import HARDENINGS
-    from tehl_taichi.laws.hardness import RELATIONS
 
     for key, registry in {**CHOICES, "": ALONE}.items():
         list_table(f"--set {key}=NAME" if key else "always used", ("name", "law", "numbers", "source"),
@@ -102,15 +103,11 @@ def new(
 
 
 def _not_of_gears(scan):
-    from tehl_taichi.errors import SceneError
-
     if scan is not None:
         raise SceneError(f"--gears and --scan {scan} contradict each other: a gear file names a scene, which has the scan")
 
 
 def _only_with_scan(**options):
-    from tehl_taichi.errors import SceneError
-
     for key, value in options.items():
         if value:
             raise SceneError(f"--{key.replace('_', '-')} {value} has no effect without a scan; name its file with --scan FILE")
@@ -125,7 +122,6 @@ def show(
 
     Example: `tehl show runs/gear-1.zarr --json | jq .fatigue`
     """
-    import tehl_taichi as tehl
     from tehl_taichi.runs.open_results import RUN, kind
 
     found: Any = tehl.open(store)
@@ -142,10 +138,6 @@ def _say_lacking(run):
 
 
 def _show_table(found, as_json):
-    from tehl_cli.bearing_command import print_bearing
-    from tehl_cli.cam_command import print_cam
-    from tehl_cli.flank_command import print_flank
-    from tehl_cli.stdout import print_json
     from tehl_cli.sweep_display import print_study
 
     from tehl_taichi.runs.bearing import Bearing
@@ -159,9 +151,6 @@ def _show_table(found, as_json):
 
 
 def _show_run(saved, as_json):
-    from tehl_cli.stdout import print_json
-    from tehl_cli.tables import history_table, summary_table, warning_lines
-
     from tehl_taichi.runs.summary.summary import unfinished_summary
 
     if as_json:
@@ -235,8 +224,6 @@ def _draw(store, out, options, page):
     """Draw the figures of the results at `store`; returns their paths. options: {option: value} of OPTIONS, None if not
     given.
     """
-    import tehl_taichi as tehl
-    from tehl_taichi.errors import SceneError
     from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, RUN, kind
 
     which = kind(store)
@@ -255,10 +242,7 @@ def _draw(store, out, options, page):
 
 def _show_plugins():
     """Print tables of the plugins and their entries; returns whether all give their known values."""
-    from tehl_cli.tables import list_table
-
     from tehl_taichi.runs import self_test
-    from tehl_taichi.values import plugins
 
     if named := plugins.folders():
         list_table("plugins", ("folder", "named by"), [(str(folder), who) for folder, who in named.items()], whole=True)
@@ -273,8 +257,6 @@ def _show_plugins():
 
 def doctor():
     """Print versions, threads and cache, check your plugins (TEHL_PLUGINS), and run a short self-test."""
-    from tehl_cli.tables import list_table
-
     from tehl_taichi.runs import self_test
 
     list_table("this installation", ("what", "value"), self_test.installation().items())

@@ -3,11 +3,11 @@
 import json
 import sys
 
+from tehl_taichi.values.escape import printable
+
 
 def put(text, keep="", file=None):
     """Print a line with non-printing letters spelled, except those in `keep`."""
-    from tehl_taichi.values.escape import printable
-
     print(printable(text, keep), file=file or sys.stdout, flush=file is not None)
 
 

@@ -1,10 +1,10 @@
 """tehl steels: the named steels."""
 
+from tehl_cli.tables import list_table, print_wrapped
+
 
 def steels():
     """List the named steels with their numbers and sources."""
-    from tehl_cli.tables import list_table, print_wrapped
-
     from tehl_taichi.scene.named_steels import STEELS
 
     rows = [(name, f"{n['E'] / 1e9:g}", f"{n['nu']:g}", f"{n['k']:g}", f"{n['rho']:g}", f"{n['c']:g}", f"{n['alpha']:.4g}")

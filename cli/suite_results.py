@@ -3,12 +3,13 @@
 from tehl_cli import bench_page
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json
+from tehl_cli.tables import list_table
+
+from tehl_taichi.disk import links, user_files
 
 
 def table(title, rows, columns):
     """Print rows (dictionaries) in the formats {key: format}; unknown values are left empty."""
-    from tehl_cli.tables import list_table
-
     list_table(title, columns, texts(rows, columns))
 
 
@@ -25,8 +26,6 @@ class Results:
     """
 
     def __init__(self, folder, name, force, more=(), kept=(), write=False):
-        from tehl_taichi.disk import links, user_files
-
         self.folder, self.name, self.write = folder, name, write
         if write:
             bench_page.check(name)
@@ -76,15 +75,11 @@ class Results:
 
     def page(self, text):
         """Write NAME.md."""
-        from tehl_taichi.disk import user_files
-
         user_files.text(self.file("md"), f"{text.rstrip()}\n\n{user_files.COMMENT}\n", force=True)
 
     def picture(self, chart):
         """Write NAME.png if matplotlib is installed; chart(plt): the figure."""
         from tehl_taichi.profiles import measure
-
-        from tehl_taichi.disk import user_files
 
         plt = measure.pyplot()
         if plt:

@@ -9,6 +9,7 @@ from tehl_cli.live_display import say
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
 
+from tehl_taichi.errors import SceneError
 from tehl_taichi.values.digits import number_of
 
 MANY = 1000  # more cases than this need --yes
@@ -68,7 +69,6 @@ def _planned(name, over, samples, seed, changes, grid, out):
     from tehl_taichi.runs.sweep.axis_syntax import over_of
     from tehl_taichi.runs.sweep.plan import plan
     from tehl_taichi.runs.sweep.study_table import Study, is_study
-    from tehl_taichi.scene import SceneError
     from tehl_taichi.scene.aliases import check_swept
     from tehl_taichi.store.load_scene import find_changed
 
@@ -85,8 +85,6 @@ def _planned(name, over, samples, seed, changes, grid, out):
 
 
 def _check_count(plan, yes):
-    from tehl_taichi.scene import SceneError
-
     if plan.count > MANY and not yes:
         raise SceneError(f"{plan.count} cases are more than {MANY}; use --yes to run them anyway, --dry-run to list them")
 

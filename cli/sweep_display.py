@@ -9,13 +9,14 @@ from typing import Any
 
 from tehl_cli.live_display import say
 from tehl_cli.stdout import put
+from tehl_cli.tables import cell, list_table
 
 from tehl_taichi.errors import Interrupted, stopped
 from tehl_taichi.runs.sweep import main_effects, repeated_cases
 from tehl_taichi.runs.sweep.axis_syntax import short_word
 from tehl_taichi.runs.sweep.study_labels import column_name, key_unit
 from tehl_taichi.runs.sweep.summary_columns import JUDGED, error_of
-from tehl_taichi.values.digits import number_of, part_of
+from tehl_taichi.values.digits import number_of, part_of, with_bar
 from tehl_taichi.values.escape import typed
 
 SHOWN = ((JUDGED, "Fi judged", 1), ("transient_h_min_m", "h_min um", 1e6), ("transient_p_max_Pa", "p_max GPa", 1e-9),
@@ -90,7 +91,6 @@ class SweepLive:
         from rich.console import Group
         from rich.progress_bar import ProgressBar
         from rich.table import Table
-        from tehl_cli.tables import cell
 
         table = Table()
         for title in ("case", "changes", "status", "s"):
@@ -144,8 +144,6 @@ def _cases(numbers):
 
 def print_study(study):
     """Print the table of a study, the reasons of missing results, and its path."""
-    from tehl_cli.tables import list_table
-
     columns = columns_of(study)
     rows = [_cells(study, row, columns) for row in itertools.islice(study.rows(), MOST_ROWS)]
     heads = ("case", *key_heads(study.plan), "status", *(title for _, title, _ in columns))
@@ -172,8 +170,6 @@ def columns_of(study):
 
 def _print_effects(study):
     """Print which key matters: the share of the spread of each usual result that it accounts for; nothing without shares."""
-    from tehl_cli.tables import list_table
-
     found = main_effects.usual_effects(study)
     axes = list(dict.fromkeys(keys for one in found.values() for keys in one.shares))
     rows = [[column_name(name), *(f"{one.shares[keys]:.0%}" for keys in axes),
@@ -185,7 +181,6 @@ def _print_effects(study):
 def _number(value, error):
     """Value with its error; empty without a value."""
     from tehl_taichi.report.number_text import value_text
-    from tehl_taichi.values.digits import with_bar
 
     return "" if math.isnan(value) else with_bar(value_text(value, error), error)
 

@@ -4,6 +4,8 @@ import os
 
 from tehl_cli.stdout import put
 
+from tehl_taichi.values.escape import printable
+
 MOST = 240  # columns of a table in a file
 NAME = 40  # characters of a first column that is not broken; sentences are
 WORD = 12  # characters of words that are never broken: half a number would be read as another one
@@ -12,8 +14,6 @@ WORD = 12  # characters of words that are never broken: half a number would be r
 def cell(text, keep=""):
     """Text of a table cell, unchanged: [brackets] are no markup of rich."""
     from rich.text import Text
-
-    from tehl_taichi.values.escape import printable
 
     return Text(printable(text, keep))
 

@@ -2,6 +2,9 @@
 
 import contextlib
 
+from tehl_cli.entry import CLOCK
+from tehl_cli.tables import list_table
+
 
 @contextlib.contextmanager
 def time_budget(live):
@@ -9,8 +12,6 @@ def time_budget(live):
     if live is None:
         yield None
         return
-    from tehl_cli.entry import CLOCK
-
     from tehl_taichi.runs.time_budget import TimeBudget
 
     budget, shown = TimeBudget(CLOCK["began"]), live.stage
@@ -26,7 +27,5 @@ def time_budget(live):
 
 def print_budget(budget):
     """Print the parts, longest first."""
-    from tehl_cli.tables import list_table
-
     list_table("where the time went", ("part", "s", "share"),
                [(name, f"{seconds:.2f}", f"{100 * share:.0f} %") for name, seconds, share in budget.rows()])

@@ -10,6 +10,9 @@ from tehl_cli.live_display import say
 from tehl_cli.missing_results import refuse_missing
 from tehl_cli.scene_options import changes_of, check_rows
 from tehl_cli.stdout import print_json, put
+from tehl_cli.tables import list_table, warning_lines
+
+from tehl_taichi.values.digits import with_bar, with_error
 
 LIST = "values a,b,c or low:high:N or low:high:N:log, units allowed:"
 
@@ -63,8 +66,6 @@ def traction(
 
 def _print(found):
     """Print the table of traction curves, the reasons of missing results, warnings of the cases, and its path."""
-    from tehl_cli.tables import list_table, warning_lines
-
     rows = found.rows
     columns = [column for column in COLUMNS if any(row[column[0]] is not None for row in rows)]
     keys = {key: head for key, head in KEYS.items() if key in rows[0]}
@@ -86,8 +87,6 @@ COLUMNS = (("friction_coefficient", "friction", 1), ("h_c_m", "h_c um", 1e6), ("
 
 def _shown(row, key, factor):
     """A number with its error; "" without a result."""
-    from tehl_taichi.values.digits import with_bar, with_error
-
     value, error = row[key], row["error"][key]
     if value is None or abs(value) < ROUNDING:
         return "" if value is None else "0"

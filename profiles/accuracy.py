@@ -8,8 +8,12 @@ import numpy as np
 from tehl_taichi.profiles.speed import circular
 
 from tehl_taichi.engine.taichi_patches.prebound import binding_seconds
+from tehl_taichi.fatigue import assessment
 from tehl_taichi.fatigue.assessment import Snapshots
 from tehl_taichi.march.accuracy.error_bars import observed_order
+from tehl_taichi.march.passage import march
+from tehl_taichi.march.zoom.zoomed_passage import passages
+from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
 from tehl_taichi.scene import scene
 from tehl_taichi.scene.grid_for_error import columns_per_width
 from tehl_taichi.scene.scales import Scales
@@ -102,20 +106,12 @@ def solve(family, nx):
 
 def passage_values(description):
     """{quantity: value} with the feature at x = 0, Fi of body a over the whole passage."""
-    from tehl_taichi.fatigue import assessment
-    from tehl_taichi.march.passage import march
-
     shots = Snapshots(march(description))
     return _of_passage(description, shots, assessment.run(description.replace(**OF_A), shots))
 
 
 def zoomed_values(description, factor):
     """Values as of :func:`passage_values`, of a run with a window."""
-    from tehl_taichi.fatigue import assessment
-    from tehl_taichi.march.passage import march
-    from tehl_taichi.march.zoom.zoomed_passage import passages
-    from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader
-
     description = description.replace(**{"zoom.factor": factor, "zoom.from_x": -np.inf})
     shots = Snapshots(march(description))
     zoomed = ZoomedReader(shots, passages(description, shots, [factor])[0], description.symmetric)
@@ -130,8 +126,6 @@ def _of_passage(description, reader, searched):
 
 
 def _numbers(description):
-    from tehl_taichi.march.passage import march
-
     scalars = next(march(description)).scalars
     return {key: scalars[key] for key in ("h_c_m", "h_min_m", "p_max_Pa")}
 

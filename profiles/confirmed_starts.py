@@ -6,6 +6,8 @@ from typing import Optional
 import numpy as np
 from tehl_taichi.profiles import measure
 
+from tehl_taichi.errors import NotConverged
+from tehl_taichi.march.passage import march
 from tehl_taichi.runs.sweep import pool
 from tehl_taichi.scene import Scene, SceneError
 from tehl_taichi.scene.scales import Scales
@@ -99,9 +101,6 @@ def _doubled_up_to(description, times, most):
 
 def _start(description):
     """(central film, m, largest temperature, deg C, whether it is a state in time) of a start, or None where it stops."""
-    from tehl_taichi.errors import NotConverged
-    from tehl_taichi.march.passage import march
-
     try:
         shot = next(march(description))
     except (NotConverged, SceneError):

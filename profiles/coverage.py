@@ -16,6 +16,7 @@ from tehl_taichi.fatigue.index_statistics import NUMBERS
 from tehl_taichi.march.accuracy import coarse_runs
 from tehl_taichi.march.accuracy.domain_error import DomainError, widened
 from tehl_taichi.march.accuracy.error_bars import GridReading, bars
+from tehl_taichi.march.passage import march
 from tehl_taichi.scene import Scene, SceneError, scene
 from tehl_taichi.scene.feature import Feature
 from tehl_taichi.scene.resolution import FEWEST
@@ -197,8 +198,6 @@ def truth(description, values):
 
 
 def _row_of_start(description):
-    from tehl_taichi.march.passage import march
-
     shot = next(march(description))
     own = [{name: asdict(reading) for name, reading in grid.items()} for grid in shot.grids]
     found = truth(description, lambda one: next(march(one)).scalars)
@@ -207,8 +206,6 @@ def _row_of_start(description):
 
 
 def _row_of_passage(description):
-    from tehl_taichi.march.passage import march
-
     coarser, refused = coarse_runs.scenes(description)
     own = {name: asdict(reading) for name, reading in coarse_runs.values(description).items()}
     answers = [{"reason": reason} for reason in refused] + [coarse_runs.answer(one) for one in coarser]

@@ -2,6 +2,7 @@
 
 import json
 import multiprocessing
+import os
 import platform
 import resource
 import time
@@ -13,6 +14,7 @@ import numpy as np
 
 from tehl_taichi.disk import user_files
 from tehl_taichi.engine import runtime
+from tehl_taichi.march.passage import march, total_steps
 from tehl_taichi.runs.sweep import pool
 from tehl_taichi.store.json_values import plain
 
@@ -41,8 +43,6 @@ def fresh(threads, function, *args):
 
 def passage(description, steps=None):
     """Timing of `steps` steps after two for warming up, the others taken to be like them; of all steps without a number."""
-    from tehl_taichi.march.passage import march, total_steps
-
     whole = total_steps(description)
     run = march(description.replace(**{"time.steps": steps + 2}) if steps else description)
     started = time.perf_counter()
@@ -73,8 +73,6 @@ def _worked(job):
 
 def steady(description, repeats):
     """Median time (s) of the steady solution after one for warming up."""
-    from tehl_taichi.march.passage import march
-
     return median(lambda: next(march(description.replace(**{"time.steady_only": True}))), repeats)
 
 
@@ -103,8 +101,6 @@ def chart_of_rows(plt, names, height=0.35):
 
 def machine():
     """One line that says where figures come from."""
-    import os
-
     name = platform.processor() or platform.machine()
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()

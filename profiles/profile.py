@@ -12,7 +12,9 @@ import numpy as np
 from tehl_taichi.profiles import measure
 from tehl_taichi.profiles.traffic import IN_S, bytes_of
 
+from tehl_taichi.engine.taichi_patches import prebound
 from tehl_taichi.engine.watched_calls import wrapped
+from tehl_taichi.march.passage import march
 from tehl_taichi.runs.time_budget import MARCHED
 from tehl_taichi.scene import scene
 
@@ -32,9 +34,6 @@ def run(nx, ny, steps, thermal):
 
     To be called in a process of its own (:func:`tehl_taichi.profiles.measure.fresh`): kernels must be bound while watched.
     """
-    from tehl_taichi.engine.taichi_patches import prebound
-    from tehl_taichi.march.passage import march
-
     watched = prebound.watch_launches(bytes_of)
     description = scene("gear").replace(**{"grid.nx": nx, "grid.ny": ny, "thermal.on": thermal, "time.steps": steps + 1})
     started = time.perf_counter()

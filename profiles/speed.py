@@ -9,6 +9,7 @@ import time
 import numpy as np
 from tehl_taichi.profiles import measure
 
+from tehl_taichi.fatigue import findley
 from tehl_taichi.scene import scene
 from tehl_taichi.view.figures import palette
 
@@ -107,8 +108,6 @@ def references(nx, ny):
 
 def search(points, moments):
     """Median time of the Findley search of passing load histories, and points x planes decided x moments in a second."""
-    from tehl_taichi.fatigue import findley
-
     rng, t = np.random.default_rng(1), np.linspace(-2, 2, moments)
     centre, width = rng.uniform(-0.3, 0.3, (points, 1)), rng.uniform(0.5, 1.0, (points, 1))
     pressure = 2e9 * np.sqrt(np.maximum(1 - ((t - centre) / width) ** 2, 0))

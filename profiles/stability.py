@@ -8,6 +8,9 @@ from typing import Optional
 import numpy as np
 from tehl_taichi.profiles import measure
 
+from tehl_taichi.errors import NotConverged
+from tehl_taichi.fatigue import assessment
+from tehl_taichi.march.passage import march, total_steps
 from tehl_taichi.runs.sweep import pool
 from tehl_taichi.scene import Scene, SceneError, thin_film
 from tehl_taichi.scene.scales import Scales
@@ -73,10 +76,6 @@ def run(chosen, precision=AUTO, workers=1, threads=None):
 
 def run_case(name, description, precision=AUTO):
     """March one scene to its end with linear solves in `precision`, and search the fatigue of a passage. Returns an Outcome."""
-    from tehl_taichi.errors import NotConverged
-    from tehl_taichi.fatigue import assessment
-    from tehl_taichi.march.passage import march, total_steps
-
     started, shots, newton, cycles = time.perf_counter(), [], 0.0, 0.0
     verdict, reason, index = "converged", "", None
     if isinstance(description, SceneError):

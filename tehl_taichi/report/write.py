@@ -6,6 +6,8 @@ from typing import Any
 
 from tehl_taichi.disk import user_files
 from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, RUN, STUDY, kind
+from tehl_taichi.runs.open_results import open as opened
 from tehl_taichi.values.checks import callback, flag
 from tehl_taichi.values.file_ending import ending
 from tehl_taichi.values.path_arguments import folder_of, path_of
@@ -56,8 +58,6 @@ def _renewed_search(folder, constants):
 def _position_pages(folder, force):
     """Write the pages of the positions of a flank or a cam. Raises SceneError for other results."""
     from tehl_taichi.report import document, position_pages, run_page
-    from tehl_taichi.runs.open_results import CAM, FLANK, kind
-    from tehl_taichi.runs.open_results import open as opened
 
     if (which := kind(folder)) not in (FLANK, CAM):
         raise SceneError(f"pages of positions exist of a flank or a cam, and {folder} is a {which}")
@@ -76,7 +76,6 @@ def page_of(folder, out=None):
     StoreError.
     """
     from tehl_taichi.report import bearing_page, cam_page, flank_page, run_page, study_page
-    from tehl_taichi.runs.open_results import BEARING, CAM, FLANK, RUN, STUDY, kind
 
     pages = {RUN: run_page, STUDY: study_page, FLANK: flank_page, BEARING: bearing_page, CAM: cam_page}
     which = kind(folder)

@@ -10,6 +10,7 @@ from tehl_taichi.runs import compare_labels
 from tehl_taichi.runs.compare_labels import flat
 from tehl_taichi.runs.open_results import RUN, kind, open_run
 from tehl_taichi.store.sets_of_runs import INSIDE
+from tehl_taichi.store.store import Store
 from tehl_taichi.values.coerce import shown
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.path_arguments import folder_of
@@ -93,7 +94,6 @@ class Comparison:
 def compare(*paths: "str | PathLike | Run | Study | ContactSet") -> Union[Comparison, "PlaceComparison"]:
     """Compare results: see :func:`tehl_taichi.compare`."""
     from tehl_taichi.runs.compare_places import PlaceComparison
-    from tehl_taichi.store.store import Store
 
     if len(paths) == 1 and isinstance(paths[0], (list, tuple)):
         raise SceneError(f"{shown(paths[0])} is a list; give its results one by one, as compare(*results)")

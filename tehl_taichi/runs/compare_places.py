@@ -6,13 +6,14 @@ from functools import cached_property
 from os import PathLike
 from pathlib import Path
 
-from tehl_taichi.runs import compare_labels, place_table
+from tehl_taichi.runs import compare_labels, compare_places_figure, place_table
 from tehl_taichi.runs.compare_change import are_separated, change
 from tehl_taichi.runs.compare_rows import NONE, merged_order
 from tehl_taichi.runs.open_results import kind
 from tehl_taichi.runs.open_results import open as opened
 from tehl_taichi.values.digits import with_bar, with_error
 from tehl_taichi.values.summary_units import nothing_of, unit_of
+from tehl_taichi.view.figures.figure_style import FigureStyle
 
 UNKNOWN = " (error unknown)"  # behind a change of two numbers, one of them at least without a bar
 
@@ -169,7 +170,4 @@ class PlaceComparison:
 
         Raises SceneError, StoreError.
         """
-        from tehl_taichi.runs import compare_places_figure
-        from tehl_taichi.view.figures.figure_style import FigureStyle
-
         return compare_places_figure.write(self, path, FigureStyle(format, dpi, width, force))

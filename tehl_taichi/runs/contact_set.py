@@ -13,6 +13,8 @@ from tehl_taichi.disk import files, links, user_files
 from tehl_taichi.disk.drafts import PART, staging_path
 from tehl_taichi.disk.locks import LOCK
 from tehl_taichi.errors import StoreError
+from tehl_taichi.store.store import Store
+from tehl_taichi.store.store_draft import check_room, writable_folder
 from tehl_taichi.values.checks import integer
 from tehl_taichi.values.coded_warning import summary_for_reader
 from tehl_taichi.values.escape import typed
@@ -70,8 +72,6 @@ class ContactSet:
         """Raise StoreError if no set can be made or resumed in `folder`, or if its set is another than `own`; DiskError without
         room for its stores.
         """
-        from tehl_taichi.store.store_draft import check_room, writable_folder
-
         user_files.check_outside(folder)
         if os.path.lexists(folder):
             cls._check_content(folder, own)
@@ -154,8 +154,6 @@ class ContactSet:
         """The readable :class:`tehl_taichi.store.store.Store` of a contact, or None. Raises SceneError for a number without a
         contact.
         """
-        from tehl_taichi.store.store import Store
-
         integer("number", number, 0, len(self._contacts) - 1)
         path = self.folder / Path(self._contacts[number].get("store") or "none").name
         with contextlib.suppress(StoreError):

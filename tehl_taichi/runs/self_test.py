@@ -7,6 +7,7 @@ import time
 
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
+from tehl_taichi.engine import cores, runtime
 from tehl_taichi.scene import scene
 from tehl_taichi.values import plugins
 from tehl_taichi.values.registry import entries_of
@@ -19,8 +20,6 @@ FILM = 0.42e-6, 0.45e-6  # m, of the self-test, whose grid is good to 1 %
 
 def installation():
     """{item: version or value as text}; starts Taichi."""
-    from tehl_taichi.engine import cores, runtime
-
     info = {"tehl_taichi": __version__, "commit": commit(), **{name: importlib.metadata.version(name) for name in LIBRARIES}}
     return info | {key: str(value) for key, value in runtime.start_or_join().items()} | {"cores": str(cores.available())}
 

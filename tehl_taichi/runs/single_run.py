@@ -7,15 +7,28 @@ import time
 from os import PathLike
 from pathlib import Path
 
+from tehl_taichi.engine import runtime
+from tehl_taichi.engine.taichi_patches.prebound import binding_seconds
 from tehl_taichi.errors import StoreError, for_reader, interrupt
 from tehl_taichi.fatigue.pressure_alone import WITHOUT, searched, why_none
+from tehl_taichi.march.zoom.kept_states import KeptStates
+from tehl_taichi.plastic import run_in_numbers
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress, progress_of
+from tehl_taichi.runs.provenance import provenance
 from tehl_taichi.runs.run_in_memory import run_in_bytes
 from tehl_taichi.runs.stored_run import Run, check_steps
-from tehl_taichi.scene import Scene, zoom_room
+from tehl_taichi.runs.summary.film_warnings import MOST_FRICTION
+from tehl_taichi.scene import Scene, memory_demand, zoom_room
+from tehl_taichi.scene.scene_warnings import preview
+from tehl_taichi.scene.timeline import most_steps, total_steps
+from tehl_taichi.store.integrity import is_store
+from tehl_taichi.store.json_values import plain
 from tehl_taichi.store.load_scene import find
+from tehl_taichi.store.store import Store
+from tehl_taichi.store.store_draft import CaseDraft, StoreDraft
 from tehl_taichi.values.checks import flag
+from tehl_taichi.values.coded_text import unknown_of
 from tehl_taichi.values.coded_warning import texts
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
@@ -32,9 +45,6 @@ def run(scene: Scene | str | PathLike, path: str | PathLike | None = None, *, fo
 def into_new_store(scene, path, force=False, threads=None, arch=None, progress=None, case=False, attrs=()):
     """Run as :func:`run`; case: the store is part of a study or a flank and lies inside it; attrs: more attributes of it."""
     began, progress = time.perf_counter(), progress_of(progress)
-    from tehl_taichi.engine import runtime
-    from tehl_taichi.store.store_draft import CaseDraft, StoreDraft
-
     runtime.check(arch, threads)
     path = None if path is None else path_of("path", path)
     _check_memory(scene)
@@ -47,9 +57,6 @@ def into_new_store(scene, path, force=False, threads=None, arch=None, progress=N
 
 def check(scene, path=None, force=False, threads=None, arch=None):
     """Raise the errors of :func:`run` that come before its first result, without writing anything."""
-    from tehl_taichi.engine import runtime
-    from tehl_taichi.store.store_draft import StoreDraft
-
     runtime.check(arch, threads)
     _check_memory(scene)
     if path is not None:
@@ -58,8 +65,6 @@ def check(scene, path=None, force=False, threads=None, arch=None):
 
 def _check_memory(scene):
     """Raise SceneError if a run of the scene needs more memory than is available."""
-    from tehl_taichi.scene import memory_demand
-
     memory_demand.check(scene, run_in_bytes(scene))
 
 
@@ -69,8 +74,6 @@ def open(path: str | PathLike, stand_in: bool = False) -> Run:
 
     stand_in: also open a run whose law is not installed here, to show and plot it.
     """
-    from tehl_taichi.store.store import Store
-
     return Run(Store.open(folder_of(path), stand_in))
 
 
@@ -78,8 +81,6 @@ def resume(path: str | PathLike, *, steps: int | None = None, threads: int | Non
            progress: Progress | None = None) -> Run:
     """Resume a run: see :func:`tehl_taichi.resume`."""
     began = time.perf_counter()
-    from tehl_taichi.engine import runtime
-
     check_steps(steps)
     runtime.check_number(threads)
     before, progress = open(path), progress_of(progress)
@@ -96,8 +97,6 @@ def run_or_resume(scene: Scene, path: str | PathLike, *, threads: int | None = N
 
     Raises StoreError if the store has another scene, and the errors of :func:`run` and :func:`resume`.
     """
-    from tehl_taichi.store.integrity import is_store
-
     if not is_store(path):
         return into_new_store(scene, path, threads=threads, progress=progress, case=True)
     there = open(path)
@@ -116,9 +115,7 @@ def check_version(path, run):
 
 def continued(path, scene, threads, began, progress):
     """Continue the store at `path` to the end of `scene`."""
-    from tehl_taichi.engine import runtime
     from tehl_taichi.runs import background_errors
-    from tehl_taichi.store.store import Store
 
     _check_memory(scene)
     with _stoppable(path), Store.write(path) as saved:
@@ -140,10 +137,7 @@ def _spent(saved):
 
 def _begin(scene, place, clock, progress, attrs):
     """Compute the steady start into a new store, then everything after it."""
-    from tehl_taichi.engine import runtime
     from tehl_taichi.runs import background_errors
-    from tehl_taichi.scene.timeline import most_steps
-    from tehl_taichi.store.store import Store
 
     _announce(scene, progress)
     if not runtime.has_kernels():
@@ -157,8 +151,6 @@ def _begin(scene, place, clock, progress, attrs):
 def _steady_start(scene, progress):
     """(first snapshot, its results for the summary)."""
     from tehl_taichi.march.passage import march
-    from tehl_taichi.store.json_values import plain
-    from tehl_taichi.values.coded_text import unknown_of
 
     progress.stage(STEADY, 0, 1)
     first = next(march(scene))
@@ -172,23 +164,18 @@ def _steady_start(scene, progress):
 
 def _attributes(scene, steady):
     """Attributes of a new store."""
-    from tehl_taichi.runs.provenance import provenance
-
     return {**texts(scene.typed_warnings), **{name: json.dumps(value) for name, value in steady.items()}, **provenance(scene)}
 
 
 def _contact_alone(scene, first):
     """{surface: fatigue of its smooth body under the steady start}; without shear if the film has more than any oil."""
     from tehl_taichi.march.accuracy import contact_alone_bars
-    from tehl_taichi.runs.summary.film_warnings import MOST_FRICTION
 
     too_much = first.scalars["friction_coefficient"] > MOST_FRICTION
     return contact_alone_bars.searches(scene.replace(**WITHOUT) if too_much else scene, first)
 
 
 def _announce(scene, progress):
-    from tehl_taichi.scene.scene_warnings import preview
-
     for sentence in (*(f"left out: {what}" for what in scene.left_out(cut=False)), *preview(scene)):
         progress.say(sentence)
     for sentence in scene.warnings():
@@ -233,7 +220,6 @@ class _Clock:
     """
 
     def __init__(self, began, spent=0.0):
-        from tehl_taichi.engine.taichi_patches.prebound import binding_seconds
         from tehl_taichi.engine.task_pool import crowding
 
         self.began, self.bound, self.crowding = began - spent, binding_seconds, crowding
@@ -257,15 +243,11 @@ def _march(saved, state, progress):
 
 def _run_in_part(scene, run_in):
     """Part {"run_in": its numbers} of the summary."""
-    from tehl_taichi.plastic import run_in_numbers
-
     return {"run_in": run_in_numbers.numbers(scene, run_in)}
 
 
 def _steel_arrays(run_in, found):
     """Arrays of the run-in; found: {surface: summary}, which get a note on whether steel still yields."""
-    from tehl_taichi.plastic import run_in_numbers
-
     for name, new in run_in.records[-1]["new_by_surface"].items():
         if part := searched(found.get(name, {})).get("von_mises"):
             part["yields"] = new > 0
@@ -274,7 +256,6 @@ def _steel_arrays(run_in, found):
 
 def _march_once(saved, progress, state, changes=()):
     from tehl_taichi.runs.recorder import march_on
-    from tehl_taichi.scene.timeline import total_steps
 
     total = total_steps(saved.scene)
     progress.begin(saved.scene)
@@ -315,8 +296,6 @@ def _kept_states(scene, state):
     """
     if not scene.zooms or scene.isothermal or scene.runs_in:
         return None
-    from tehl_taichi.march.zoom.kept_states import KeptStates
-
     return KeptStates(state)
 
 
@@ -355,8 +334,6 @@ def _what_is_left(path):
 
 def _missing_words(left):
     """Text of the missing part of a passage."""
-    from tehl_taichi.scene.timeline import total_steps
-
     if running := run_in_stage.words(left.store):
         return running
     if left.store.last_step < total_steps(left.scene):

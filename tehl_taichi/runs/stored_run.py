@@ -8,8 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tehl_taichi.errors import StoreError, UnknownName
+from tehl_taichi.fatigue.overrides import changed
+from tehl_taichi.runs.dataset import dataset
 from tehl_taichi.runs.summary import summary_numbers
 from tehl_taichi.scene import Scene
+from tehl_taichi.scene.timeline import remaining_scene
 from tehl_taichi.values.checks import callback, integer
 from tehl_taichi.values.coded_text import for_reader
 from tehl_taichi.values.coded_warning import summary_for_reader
@@ -143,7 +146,6 @@ class Run:
         SearchResult
             With the error bars of the index, where they hold for these constants too.
         """
-        from tehl_taichi.fatigue.overrides import changed
         from tehl_taichi.march.accuracy import coarse_runs
         from tehl_taichi.runs import fatigue_errors
         from tehl_taichi.runs.stored_fatigue import assessed
@@ -189,8 +191,6 @@ class Run:
         >>> data.pressure.dims, data.pressure.units, set(data.dims) <= set(data.coords)
         (('time', 'x', 'y'), 'Pa', True)
         """
-        from tehl_taichi.runs.dataset import dataset
-
         return dataset(self.path)
 
     def plot(self, folder: str | PathLike | None = None, *, at: float | None = None, depth: float | None = None,
@@ -308,8 +308,6 @@ class Run:
         SceneError
             `steps` is no whole number of at least 1.
         """
-        from tehl_taichi.scene.timeline import remaining_scene
-
         check_steps(steps)
         if not self.finished and not steps:
             return self.scene

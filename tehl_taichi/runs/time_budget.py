@@ -5,6 +5,7 @@ import functools
 import threading
 import time
 
+from tehl_taichi.engine.watched_calls import wrapped
 from tehl_taichi.runs.progress import ERRORS, FATIGUE, PASSAGE, STEADY, ZOOM
 
 SETUP, MACHINE_CODE, REST = "imports and scene", "kernels: tracing, machine code or cache", "summary and writing"
@@ -37,8 +38,6 @@ class TimeBudget:
     @contextlib.contextmanager
     def watching(self):
         """Context manager: calls inside stages are timed as separate parts."""
-        from tehl_taichi.engine.watched_calls import wrapped
-
         with wrapped({**MARCHED, **SEARCHED}, self._wrapper):
             yield
         self._charge()

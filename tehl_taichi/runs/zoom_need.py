@@ -1,6 +1,7 @@
 """Need of a finished run for a fine window, and the factors to try."""
 
 from tehl_taichi.march.accuracy import coarse_runs
+from tehl_taichi.march.zoom.window import windows_of
 from tehl_taichi.scene import resolution, zoom_room
 
 FACTORS = 4, 8  # of windows to try in turn; a window of half the factor runs with each, for the error bars
@@ -28,7 +29,6 @@ def reason(run):
 
 def work(store, factor):
     """Estimated time of a run with windows of this factor and of half of it, over the time of the run without them."""
-    from tehl_taichi.march.zoom.window import windows_of
     from tehl_taichi.march.zoom.zoomed_passage import begin_of
 
     scene, (first, end) = store.scene, store.scene.path

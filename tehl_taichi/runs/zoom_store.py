@@ -3,20 +3,20 @@
 import time
 from os import PathLike
 
+from tehl_taichi.engine import runtime
 from tehl_taichi.errors import Error, Interrupted, SceneError, StoreError
 from tehl_taichi.runs import single_run
 from tehl_taichi.runs.progress import Progress, progress_of
 from tehl_taichi.runs.stored_run import Run, check_steps
 from tehl_taichi.scene import Scene, refinement, zoom_room
 from tehl_taichi.store.integrity import EXTENDED, SEEKS
+from tehl_taichi.store.store import Store
 from tehl_taichi.values.escape import typed
 from tehl_taichi.values.quantity import AUTO
 
 
 def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = None, progress: Progress | None = None) -> Run:
     """Add a window: see :func:`tehl_taichi.zoom`."""
-    from tehl_taichi.engine import runtime
-
     runtime.check_number(threads)
     before, progress = single_run.open(path), progress_of(progress)
     _check(before, factor)
@@ -35,8 +35,6 @@ def run(scene: Scene, path: str | PathLike | None = None, *, threads: int | None
 def resume(path: str | PathLike, *, steps: int | None = None, threads: int | None = None, progress: Progress | None = None
            ) -> Run:
     """Resume a run, and its search for the window that it needs: see :func:`tehl_taichi.resume`."""
-    from tehl_taichi.engine import runtime
-
     check_steps(steps)
     runtime.check_number(threads)
     done = single_run.open(path)
@@ -57,8 +55,6 @@ def _check(before, factor):
 
 def _with_window(before, factor, threads, progress):
     """The Run with a window of this factor."""
-    from tehl_taichi.engine import runtime
-
     began, scene = time.perf_counter(), before.scene.replace(**{"zoom.factor": factor})
     if scene == before.scene:
         progress.say(f"{before.path} has {f'its window of factor {factor}' if factor else 'no window'} already")
@@ -116,8 +112,6 @@ def _at_the_end(done):
 
 def _noted(done, state):
     """The run with a note on the state of its search for a window."""
-    from tehl_taichi.store.store import Store
-
     if done.store.window_search == state:
         return done
     with Store.write(done.path) as saved:

@@ -19,6 +19,7 @@ from tehl_taichi.march.zoom.read_once import ReadOnce
 from tehl_taichi.march.zoom.zoomed_reader import ZoomedReader, extreme
 from tehl_taichi.runs import zoom_need, zoomed_points
 from tehl_taichi.runs.progress import ZOOM
+from tehl_taichi.runs.stored_fatigue import assessed
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.view.zoom_window import FIRST
 
@@ -90,8 +91,6 @@ def searched(saved, scene, reader, boxes, progress, until=None, sought=Sought.AL
     scene: its fatigue constants are used; reader: ZoomedReader; until: position (a) of the feature, by default up to where the
     window resolves the pressure.
     """
-    from tehl_taichi.runs.stored_fatigue import assessed
-
     if until is None:
         until = coarse_runs.resolved(scene, reader, reader.scalar)
     found = assessed(saved, scene, progress, until, reader=reader, sought=sought, boxes=boxes)

@@ -7,7 +7,12 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from tehl_taichi.disk.drafts import PART, staging_path
+from tehl_taichi.disk.links import is_folder
+from tehl_taichi.disk.locks import LOCK, lock_content
 from tehl_taichi.errors import Error, NotConverged, are_options_typed, typed_options
+from tehl_taichi.runs import single_run
+from tehl_taichi.runs.sweep import warm_cache
 from tehl_taichi.scene import Scene
 
 
@@ -43,8 +48,6 @@ def run_case(job, progress=None):
 
 
 def _summary(job, progress):
-    from tehl_taichi.runs.sweep import warm_cache
-
     if job.shared:
         warm_cache.ensure_kernels(job.scene)
     if job.store is None:
@@ -55,18 +58,12 @@ def _summary(job, progress):
 
 def _run(job, path, progress):
     """Summary of the run in the store at `path`: started, resumed, or already finished."""
-    from tehl_taichi.runs import single_run
-
     _take_over_lock(path)
     return single_run.run_or_resume(job.scene, path, threads=job.threads, progress=progress).store.summary
 
 
 def _take_over_lock(path):
     """Take over the lock of a worker on another machine; the worker is gone, otherwise it would still have the case."""
-    from tehl_taichi.disk.drafts import PART, staging_path
-    from tehl_taichi.disk.links import is_folder
-    from tehl_taichi.disk.locks import LOCK, lock_content
-
     for folder in (path, staging_path(path, PART)):
         content = lock_content(folder)
         if is_folder(folder) and content and content["host"] != socket.gethostname():

@@ -7,7 +7,9 @@ A single worker is this process. Several are local processes (:mod:`tehl_taichi.
 import contextlib
 
 from tehl_taichi.disk.drafts import clean
+from tehl_taichi.engine import cores, runtime
 from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.sweep import dask_cluster
 from tehl_taichi.runs.sweep.job import LostJob
 from tehl_taichi.values.checks import integer
 from tehl_taichi.values.coerce import plain
@@ -32,8 +34,6 @@ def results(work, jobs, *, workers=1, scheduler=None, say_line=None, tick=None):
 
         yield from local_workers.results(work, jobs, workers, tick)
         return
-    from tehl_taichi.runs.sweep import dask_cluster
-
     yield from dask_cluster.results(work, jobs, scheduler, say_line or (lambda sentence: None))
 
 
@@ -53,8 +53,6 @@ def sizes(workers=None, threads=None, scheduler=None, jobs=MOST, words="--thread
     Default: one thread on every core, or as many as fit the given number. (1, None): this process as it was started; (None,
     threads): a running scheduler. Never more processes than jobs. words: option of the threads.
     """
-    from tehl_taichi.engine import cores
-
     if workers is not None and scheduler is not None:
         raise SceneError(f"--workers {workers} and --scheduler contradict each other; a running cluster has its own workers")
     check_numbers(workers, threads, words)
@@ -76,8 +74,6 @@ def check_numbers(workers, threads, words):
 
 def check(workers, threads, scheduler=None):
     """Raise the errors that :func:`results` would raise before its first job, including those of jobs in this process."""
-    from tehl_taichi.engine import runtime
-
     runtime.end_if_importing()
     if scheduler is not None:
         from tehl_taichi.runs.sweep import dask_cluster

@@ -7,6 +7,7 @@ from typing import Any
 
 from tehl_taichi.disk import files
 from tehl_taichi.errors import SceneError
+from tehl_taichi.runs.sweep import axis_syntax
 from tehl_taichi.runs.sweep.plan import plan
 from tehl_taichi.scene import toml_file
 from tehl_taichi.scene.aliases import check_swept
@@ -73,7 +74,5 @@ def _listed(key, values):
 
 
 def _rows(columns):
-    from tehl_taichi.runs.sweep import axis_syntax
-
     return [list(row) for row in axis_syntax.axis(list(columns),
                                                   [axis_syntax.column(found) for found in columns.values()]).rows]

@@ -4,27 +4,26 @@ import os
 from collections.abc import Callable, Mapping
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from tehl_taichi.runs.sweep import case, pool
 from tehl_taichi.runs.sweep.job import LostJob
+from tehl_taichi.runs.sweep.plan import plan as planned
+from tehl_taichi.runs.sweep.study_table import CASES, Study
 from tehl_taichi.scene import Scene
-from tehl_taichi.values.checks import callback
+from tehl_taichi.store.load_scene import find
+from tehl_taichi.store.store_draft import check_room, writable_folder
+from tehl_taichi.values.checks import callback, choice
 from tehl_taichi.values.path_arguments import path_of
-
-if TYPE_CHECKING:
-    from tehl_taichi.runs.sweep.study_table import Study
 
 KEEP = ("stores", "summary")
 
 
 def sweep(scene: Scene | str | PathLike, over: Mapping, path: str | PathLike | None = None, *, samples: int | None = None,
           seed: int | None = None, workers: int | None = None, threads_per_worker: int | None = None, scheduler: Any = None,
-          keep: str = "stores", progress: Callable | None = None) -> "Study":
+          keep: str = "stores", progress: Callable | None = None) -> Study:
     """Run a sweep: see :func:`tehl_taichi.sweep`."""
-    from tehl_taichi.runs.sweep.plan import plan
-    from tehl_taichi.store.load_scene import find
-
-    return run(plan(find(scene), over, samples, seed), path, workers=workers, threads_per_worker=threads_per_worker,
+    return run(planned(find(scene), over, samples, seed), path, workers=workers, threads_per_worker=threads_per_worker,
                scheduler=scheduler, keep=keep, progress=progress)
 
 
@@ -33,9 +32,6 @@ def run(plan, path=None, *, workers=None, threads_per_worker=None, scheduler=Non
     """Run the cases of `plan` without a result in its study at `path`; see :func:`sweep`. work: function that runs a
     :class:`tehl_taichi.runs.sweep.case.CaseJob` (default: :func:`tehl_taichi.runs.sweep.case.run_case`).
     """
-    from tehl_taichi.runs.sweep import case, pool
-    from tehl_taichi.runs.sweep.study_table import CASES, Study
-
     callback("progress", progress)
     check_settings(workers, threads_per_worker, scheduler, keep)
     refused = plan.refused()
@@ -59,9 +55,6 @@ def check_settings(workers=None, threads_per_worker=None, scheduler=None, keep="
     """Check the settings of a sweep; returns (processes, threads of each), see :func:`tehl_taichi.runs.sweep.pool.sizes`.
     Raises SceneError and RuntimeUnavailable. connect: also check that the scheduler answers.
     """
-    from tehl_taichi.runs.sweep import pool
-    from tehl_taichi.values.checks import choice
-
     choice("--keep", keep, KEEP)
     workers, threads = pool.sizes(workers, threads_per_worker, scheduler)
     if connect or scheduler is None:
@@ -71,9 +64,6 @@ def check_settings(workers=None, threads_per_worker=None, scheduler=None, keep="
 
 def check_place(plan, path, keep="stores"):
     """Raise StoreError if the study of `plan` cannot be written at `path`; DiskError without room for its stores."""
-    from tehl_taichi.runs.sweep.study_table import Study
-    from tehl_taichi.store.store_draft import check_room, writable_folder
-
     Study.check(path, plan)
     folder = writable_folder(path)
     if keep == "stores":
@@ -86,10 +76,8 @@ def default_path(plan):
 
 
 def _job(study, number, keep, threads, shared):
-    from tehl_taichi.runs.sweep.case import CaseJob
-
     store = str(study.store_of(number).absolute()) if keep == "stores" else None
-    return CaseJob(study.plan.case(number), store, threads, shared)
+    return case.CaseJob(study.plan.case(number), store, threads, shared)
 
 
 def _report_refused(study, refused):

@@ -14,6 +14,7 @@ import sys
 
 from tehl_taichi.commit import commit
 from tehl_taichi.disk import files
+from tehl_taichi.engine import runtime
 from tehl_taichi.errors import Error
 
 STEPS = 3  # the fewest with a fatigue search
@@ -21,9 +22,7 @@ STEPS = 3  # the fewest with a fatigue search
 
 def ensure_kernels(scene):
     """Make sure that the kernels of such a scene are in the cache; waits if another process is compiling them."""
-    from tehl_taichi.engine.runtime import preferred_cache
-
-    stamp = preferred_cache() / f"warm-{_kind(scene)}"
+    stamp = runtime.preferred_cache() / f"warm-{_kind(scene)}"
     if os.path.exists(stamp):
         return
     with contextlib.suppress(OSError):  # a read-only folder has no new kernels
@@ -58,7 +57,6 @@ def _compile(scene):
 
 def serve():
     """Main function of that process; reads a scene from stdin."""
-    from tehl_taichi.engine import runtime
     from tehl_taichi.fatigue import assessment
     from tehl_taichi.march.passage import march
 

@@ -2,14 +2,11 @@
 
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from tehl_taichi.runs.sweep.study_table import Study
 from tehl_taichi.values.coded_warning import counted
 from tehl_taichi.values.digits import number_of, part_of, printed_unit
 from tehl_taichi.values.summary_values import error_of, value_at
-
-if TYPE_CHECKING:
-    from tehl_taichi.runs.sweep.study_table import Study
 
 TEMPERATURE, SPEED, SRR, LOAD, PRESSURE = "temperature", "speed", "srr", "load", "hertz_pressure"
 ALONG = (SRR, SPEED, LOAD, PRESSURE, TEMPERATURE)  # of keys with several values the first is that along the curves
@@ -43,7 +40,7 @@ class Traction:
     (<tehl.Traction smooth-line: 1 of 1 case, t.zarr>, '0.08')
     """
 
-    def __init__(self, study: "Study") -> None:
+    def __init__(self, study: Study) -> None:
         self.study = study
 
     @property

@@ -12,6 +12,7 @@ import numpy as np
 
 from tehl_taichi.disk import user_files
 from tehl_taichi.errors import SceneError, StoreError
+from tehl_taichi.store.store import Store
 from tehl_taichi.values.checks import callback, choice, flag, integer
 from tehl_taichi.values.path_arguments import folder_of, path_of
 from tehl_taichi.view.figures.figure_style import FigureStyle, import_matplotlib
@@ -29,8 +30,6 @@ def animate(source: str | PathLike | Any, out: str | PathLike | None = None, *, 
             fps: int = FPS, dpi: int = DPI, width: float = WIDTH, shown: str = "film", force: bool = False,
             progress: Callable[[int, int], None] | None = None) -> Path:
     """Write an animation: see :func:`tehl_taichi.animate`."""
-    from tehl_taichi.store.store import Store
-
     integer("frames", frames, 2, 2000)
     integer("fps", fps, 1, 50)
     choice("--map", shown, SHOWN)
