@@ -12,7 +12,6 @@ from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json
 from tehl_cli.suite_results import Results
-from tehl_cli.tables import list_table
 
 from tehl_taichi.engine import runtime
 from tehl_taichi.engine.cores import available
@@ -51,12 +50,12 @@ def accuracy(
         say_idle(context, "no error bars are judged", "judge")
     runtime.start(threads=threads)
     found, name = {}, only if only and only != "errors" else "coverage"
-    errors = Results(out, "accuracy", force, write=write) if only in (None, "errors") and not judge else None
-    bars = Results(out, name, force, kept=("json",) if judge else (), write=write) if only != "errors" else None
+    errors = Results(out, "accuracy", force, as_json, write=write) if only in (None, "errors") and not judge else None
+    bars = None if only == "errors" else Results(out, name, force, as_json, kept=("json",) if judge else (), write=write)
     if errors:
-        found["errors"] = _accuracy(errors, quick, as_json, keep)
+        found["errors"] = _accuracy(errors, quick, keep)
     if bars:
-        found[name] = _coverage(bars, seed, quick, judge, threads or available(), as_json)
+        found[name] = _coverage(bars, seed, quick, judge, threads or available())
     if as_json:
         print_json(found)
 
@@ -69,20 +68,19 @@ def _check_package():
         raise StoreError(f"--keep: {grid_for_error.FILE} cannot be written")
 
 
-def _accuracy(results, quick, as_json, keep):
+def _accuracy(results, quick, keep):
     from tehl_taichi.profiles import accuracy as suite
     from tehl_taichi.profiles import measure
 
     rows = suite.run(quick, say)
     columns, runs = _errors(rows)
     results.documented(columns, runs)
-    if not as_json:
-        list_table("error, % (* no faster run has a smaller one)", columns, runs)
-        list_table("columns needed for each "
-                   "error", ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
-                   [(family, quantity, "none" if order is None else f"{order:.1f}", *(str(nx or "finer") for nx in grids))
-                    for family, quantity, order, grids in suite.enough(rows)])
-    results.finish(rows, lambda plt: suite.chart(plt, rows), False)
+    results.table("error, % (* no faster run has a smaller one)", columns, runs)
+    results.table("columns needed for each error",
+                  ("family", "quantity", "order", *(f"{target:g}" for target in suite.TARGETS)),
+                  [(family, quantity, "none" if order is None else f"{order:.1f}", *(str(nx or "finer") for nx in grids))
+                   for family, quantity, order, grids in suite.enough(rows)])
+    results.write_files(rows, lambda plt: suite.chart(plt, rows))
     if keep:
         from tehl_taichi.disk import files
         from tehl_taichi.scene import grid_for_error
@@ -93,7 +91,7 @@ def _accuracy(results, quick, as_json, keep):
     return rows
 
 
-def _coverage(results, seed, quick, judge, threads, as_json):
+def _coverage(results, seed, quick, judge, threads):
     from tehl_taichi.profiles import coverage as suite
     from tehl_taichi.profiles import measure
 
@@ -105,10 +103,10 @@ def _coverage(results, seed, quick, judge, threads, as_json):
     stored = json.loads(path.read_text())
     found = suite.table(stored["rows"])
     results.documented(("quantity", *BARS), [(f"{part} {what}", *_of_bars(*numbers)) for part, what, *numbers in found])
-    for part, rows in () if as_json else itertools.groupby(found, lambda row: row[0]):
-        list_table(f"{part}: error bars of random scenes (seed {stored['seed']}), checked on grids {suite.FINER} times as "
-                   "fine;\nmedians of bar/error, bar and error (relative, in K, or of shares themselves)",
-                   ("quantity", *BARS), [(what, *_of_bars(*numbers)) for _, what, *numbers in rows])
+    for part, rows in itertools.groupby(found, lambda row: row[0]):
+        results.table(f"{part}: error bars of random scenes (seed {stored['seed']}), checked on grids {suite.FINER} times as "
+                      "fine;\nmedians of bar/error, bar and error (relative, in K, or of shares themselves)",
+                      ("quantity", *BARS), [(what, *_of_bars(*numbers)) for _, what, *numbers in rows])
     for one in stored["rows"]:
         if "reason" in one:
             say(f"{one['kind']} skipped: {one['reason']}")

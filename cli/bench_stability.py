@@ -7,7 +7,7 @@ import typer
 from tehl_cli.bench_options import FORCE, JSON, OUT, THREADS, WORKERS, WRITE
 from tehl_cli.idle_options import say_idle
 from tehl_cli.live_display import say
-from tehl_cli.suite_results import Results, table
+from tehl_cli.suite_results import Results, texts
 
 from tehl_taichi.errors import SceneError
 
@@ -31,18 +31,15 @@ def stability(
                                                     "does not hold, up to 2048 columns (point contacts: 256)"),
     finer: int = typer.Option(0, min=0, max=4, help="number of doublings of every grid before the runs, up to 2048 columns "
                                                     "(point contacts: 512)"),
-    as_json: bool = JSON,
-    force: bool = FORCE,
-    write: bool = WRITE,
-    threads: Optional[int] = THREADS,
-    workers: int = WORKERS,
+    as_json: bool = JSON, force: bool = FORCE, write: bool = WRITE,
+    threads: Optional[int] = THREADS, workers: int = WORKERS,
     precision: str = typer.Option("auto", help="precision of the linear solves: f32, f64 or auto (chosen for each scene)"),
 ):
     """Run stiff and extreme scenes; each converges, is refused, stops or fails. Example: `tehl bench stability`"""
     from tehl_taichi.profiles import confirmed_starts, stability_scenes
     from tehl_taichi.profiles import stability as suite
 
-    results = Results(out, "starts" if confirm else "stability", force, write=write and not confirm)
+    results = Results(out, "starts" if confirm else "stability", force, as_json, write=write and not confirm)
     _say_idle(context, confirm, random or rough)
     listed = stability_scenes.cases(thermal)
     drawn = (stability_scenes.random_cases(min(random, 8) if quick else random, seed)
@@ -53,11 +50,11 @@ def stability(
     _check_any(chosen, match, only_starts or confirm, [*listed, *drawn])
     chosen = confirmed_starts.finer(suite.carried(chosen) if by_film else chosen, finer)
     if confirm:
-        return _confirm(results, chosen, as_json, workers, threads, again)
+        return _confirm(results, chosen, workers, threads, again)
     found = _outcomes(chosen, precision, workers, threads)
     results.documented(("scenes", *_verdicts(found)), [(kind, *map(str, _verdicts(part).values()))
                                                        for kind, part in _parts(found, listed).items() if part])
-    _finish(results, found, "stability" + (" with temperatures" if thermal else ""), as_json)
+    _finish(results, found, "stability" + (" with temperatures" if thermal else ""))
 
 
 def _say_idle(context, confirm, drawn):
@@ -102,23 +99,22 @@ def _verdicts(outcomes):
     return {verdict: sum(o.verdict == verdict for o in outcomes) for verdict in ("converged", "refused", "stopped", "failed")}
 
 
-def _finish(results, found, title, as_json):
+def _finish(results, found, title):
     """Print the table and the counts, write the files, and exit with the code of the suite."""
     from tehl_taichi.profiles import stability as suite
 
     counts = {**_verdicts(found), "unsettled": sum(o.unsettled for o in found), "carried": sum(o.carried for o in found),
               "carried_converged": sum(o.carried and o.verdict == "converged" for o in found)}
-    if not as_json:
-        table(title, [{**vars(o), "case": o.name} for o in found],
-              {"case": "{}", "verdict": "{}", "steps": "{}", "newton": "{:.1f}", "cycles": "{:.0f}", "seconds": "{:.1f}",
-               "Fi_max": "{:.3f}"})
+    columns = {"case": "{}", "verdict": "{}", "steps": "{}", "newton": "{:.1f}", "cycles": "{:.0f}", "seconds": "{:.1f}",
+               "Fi_max": "{:.3f}"}
+    results.table(title, columns, texts([{**vars(o), "case": o.name} for o in found], columns))
     say("{converged} converged ({unsettled} of them from a start that did not settle), {refused} refused, {stopped} stopped, "
         "{failed} failed; {carried_converged} of {carried} whose film the grid carries converged".format(**counts))
-    results.finish([vars(o) for o in found], lambda plt: suite.chart(plt, found), as_json, **counts)
+    results.finish([vars(o) for o in found], lambda plt: suite.chart(plt, found), **counts)
     raise typer.Exit(1 if counts["failed"] else 0)
 
 
-def _confirm(results, chosen, as_json, workers, threads, again):
+def _confirm(results, chosen, workers, threads, again):
     from tehl_taichi.profiles import confirmed_starts
 
     found = []
@@ -128,11 +124,10 @@ def _confirm(results, chosen, as_json, workers, threads, again):
         say(f"{one.name}: {one.reason or f'{one.columns} columns, ' + (changes or 'stops')}")
     counts = {"starts": len(found), "holds": sum(one["holds"] for one in found),
               "moving": sum(one["holds"] and one["moving"] for one in found)}
-    if not as_json:
-        rows = [{**one, **{key: 100 * one[key] for key in ("half_film", "finer_film") if one[key] is not None}}
-                for one in found]
-        table("change by half the time step and by twice the columns: h_c in %, temperature in K", rows,
-              {"name": "{}", "columns": "{}", **dict.fromkeys(("half_film", "half_K", "finer_film", "finer_K"), "{:.2f}")})
+    rows = [{**one, **{key: 100 * one[key] for key in ("half_film", "finer_film") if one[key] is not None}} for one in found]
+    columns = {"name": "{}", "columns": "{}", **dict.fromkeys(("half_film", "half_K", "finer_film", "finer_K"), "{:.2f}")}
+    results.table("change by half the time step and by twice the columns: h_c in %, temperature in K", columns,
+                  texts(rows, columns))
     say("{holds} of {starts} starts hold: neither changes their film by more than 1 %, nor their temperature by more than 1 K "
         "({moving} of them states in time)".format(**counts))
-    results.finish(found, lambda plt: confirmed_starts.changes_chart(plt, found), as_json, **counts)
+    results.finish(found, lambda plt: confirmed_starts.changes_chart(plt, found), **counts)

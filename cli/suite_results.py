@@ -8,25 +8,20 @@ from tehl_cli.tables import list_table
 from tehl_taichi.disk import links, user_files
 
 
-def table(title, rows, columns):
-    """Print rows (dictionaries) in the formats {key: format}; unknown values are left empty."""
-    list_table(title, columns, texts(rows, columns))
-
-
 def texts(rows, columns):
-    """Rows (dictionaries) as lists of texts."""
+    """Rows (dictionaries) as lists of texts, in the formats {key: format} of `columns`; unknown values are left empty."""
     return [[form.format(row[key]) if row.get(key) is not None else "" for key, form in columns.items()] for row in rows]
 
 
 class Results:
     """Files NAME.json, NAME.png and others (`more`: their endings) of a suite in a folder.
 
-    force: replace those of an earlier run; write: also replace the suite's table in the documentation. Raises StoreError,
-    before the work, if they may not be written.
+    force: replace those of an earlier run; as_json: print the JSON object in place of tables; write: also replace the suite's
+    table in the documentation. Raises StoreError, before the work, if they may not be written.
     """
 
-    def __init__(self, folder, name, force, more=(), kept=(), write=False):
-        self.folder, self.name, self.write = folder, name, write
+    def __init__(self, folder, name, force, as_json, more=(), kept=(), write=False):
+        self.folder, self.name, self.as_json, self.write = folder, name, as_json, write
         if write:
             bench_page.check(name)
         links.refuse_itself(folder)
@@ -46,24 +41,30 @@ class Results:
         measure.save(self.folder, self.name, found)
         return found
 
-    def finish(self, rows, chart, as_json, **more):
-        """Write NAME.json (machine, rows and further data) and NAME.png; print the JSON object if requested.
+    def table(self, title, columns, rows):
+        """Print a table; rows: lists of texts."""
+        if not self.as_json:
+            list_table(title, columns, rows)
 
-        chart(plt): the figure.
-        """
+    def finish(self, rows, chart, **more):
+        """As :meth:`write_files`; print the JSON object if requested."""
+        found = self.write_files(rows, chart, **more)
+        if self.as_json:
+            print_json(found)
+
+    def write_files(self, rows, chart, **more):
+        """Write NAME.json (machine, rows and further data), and NAME.png of chart(plt); returns the JSON object."""
         found = self.keep(rows, **more)
         say(f"wrote {self.file('json')}")
         self.picture(chart)
-        if as_json:
-            print_json(found)
+        return found
 
-    def show(self, title, rows, columns, chart, as_json, shown=None):
+    def show(self, title, rows, columns, chart, shown=None):
         """Print and document the table of rows (or of `shown`) in the formats `columns`, then :meth:`finish`."""
-        shown = shown or rows
-        if not as_json:
-            table(title, shown, columns)
-        self.documented(columns, texts(shown, columns))
-        self.finish(rows, chart, as_json)
+        lines = texts(shown or rows, columns)
+        self.table(title, columns, lines)
+        self.documented(columns, lines)
+        self.finish(rows, chart)
 
     def documented(self, columns, rows, keys=0):
         """Write the suite's table into the documentation if requested; rows: lists of texts; keys: see
