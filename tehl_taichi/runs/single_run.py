@@ -11,8 +11,6 @@ from tehl_taichi.engine import runtime
 from tehl_taichi.engine.taichi_patches.prebound import binding_seconds
 from tehl_taichi.errors import StoreError, for_reader, interrupt
 from tehl_taichi.fatigue.pressure_alone import WITHOUT, searched, why_none
-from tehl_taichi.march.zoom.kept_states import KeptStates
-from tehl_taichi.plastic import run_in_numbers
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress, progress_of
 from tehl_taichi.runs.provenance import provenance
@@ -243,11 +241,15 @@ def _march(saved, state, progress):
 
 def _run_in_part(scene, run_in):
     """Part {"run_in": its numbers} of the summary."""
+    from tehl_taichi.plastic import run_in_numbers
+
     return {"run_in": run_in_numbers.numbers(scene, run_in)}
 
 
 def _steel_arrays(run_in, found):
     """Arrays of the run-in; found: {surface: summary}, which get a note on whether steel still yields."""
+    from tehl_taichi.plastic import run_in_numbers
+
     for name, new in run_in.records[-1]["new_by_surface"].items():
         if part := searched(found.get(name, {})).get("von_mises"):
             part["yields"] = new > 0
@@ -296,6 +298,8 @@ def _kept_states(scene, state):
     """
     if not scene.zooms or scene.isothermal or scene.runs_in:
         return None
+    from tehl_taichi.march.zoom.kept_states import KeptStates
+
     return KeptStates(state)
 
 

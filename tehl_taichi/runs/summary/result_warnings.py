@@ -12,7 +12,6 @@ from tehl_taichi.laws import conduction
 from tehl_taichi.laws.law import beyond
 from tehl_taichi.march.accuracy.coarse_runs import near_the_surface
 from tehl_taichi.march.quantities import short_name
-from tehl_taichi.runs import zoom_need
 from tehl_taichi.runs.summary import domain_warnings, film_warnings, rim_warnings
 from tehl_taichi.runs.summary.summary_row import quantity
 from tehl_taichi.scene import yield_stress
@@ -104,6 +103,8 @@ def _passes(name):
 
 def _window(store):
     """Option of a fine window, "" if the run cannot have one."""
+    from tehl_taichi.runs import zoom_need
+
     return zoom_option(store.scene, functools.partial(zoom_need.work, store))
 
 
