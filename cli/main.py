@@ -19,9 +19,8 @@ from tehl_cli.flank_command import flank
 from tehl_cli.key_as_option import with_hint
 from tehl_cli.report_command import report
 from tehl_cli.run_commands import resume, run, zoom
-from tehl_cli.show_commands import doctor, laws, new, oils, plot, scenes, show
+from tehl_cli.show_commands import doctor, laws, new, oils, plot, scenes, show, steels
 from tehl_cli.single_options import Command
-from tehl_cli.steels_command import steels
 from tehl_cli.sweep_command import sweep
 from tehl_cli.traction_command import traction
 

@@ -1,4 +1,4 @@
-"""Commands that list and show: scenes, oils, laws, new, show, plot, doctor."""
+"""Commands that list and show: scenes, oils, steels, laws, new, show, plot, doctor."""
 
 from pathlib import Path
 from typing import Any, Optional
@@ -44,6 +44,18 @@ def oils():
         print_wrapped(f"{name}: {oil.source} [{oil.oil.viscosity}]")
     print_wrapped("To choose one: --oil NAME. For your own oil give its data sheet (m2/s, kg/m3): --set oil.nu_40=220e-6 "
                   "--set oil.nu_100=19e-6 --set oil.rho_15=890")
+
+
+def steels():
+    """List the named steels with their numbers and sources."""
+    from tehl_taichi.scene.named_steels import STEELS
+
+    rows = [(name, f"{n['E'] / 1e9:g}", f"{n['nu']:g}", f"{n['k']:g}", f"{n['rho']:g}", f"{n['c']:g}", f"{n['alpha']:.4g}")
+            for name, steel in STEELS.items() for n in (steel.numbers,)]
+    list_table("named steels (--set bodies.a.material=NAME)",
+               ("name", "E GPa", "nu", "k W/mK", "kg/m3", "J/kgK", "alpha 1/K"), rows)
+    for name, steel in STEELS.items():
+        print_wrapped(f"{name}: {steel.says}; {steel.source}")
 
 
 def laws():

@@ -1,7 +1,10 @@
-"""Stress at which a body yields, while the simulated bodies stay elastic."""
+"""Stress at which a body yields, and pressure at which every steel does, while the simulated bodies stay elastic."""
 
 import math
 
+YIELDS = 4e9  # Pa: under it hardened bearing steel keeps a dent of 1e-4 of a roller's diameter (ISO 76; balls: 4.2 GPa)
+STEEL = (f"hardened steel yields above about {YIELDS / 1e9:g} GPa (static limit of roller bearings, ISO 76), softer steel "
+         "earlier")
 HARDENED = 2.2e9  # Pa: a half-space that yields there keeps the 1e-4 of a ball's diameter that ISO 76 allows at 4.2 GPa
 STEELS = 185e9, 230e9  # Pa: Young's moduli of steels (hot work steels 190, 100Cr6 208, maraging and cold work steels to 225)
 UNDER_A_PEAK = 2.1  # p_max over the von Mises stress under an asperity (docs/decisions/11-yield.md); a ball has 1.6

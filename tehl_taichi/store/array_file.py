@@ -56,6 +56,13 @@ def _indented(text):
     return json.dumps(json.loads(text), indent=2).encode()
 
 
+def publish(folder, attrs, arrays):
+    """Replace the metadata of the group in `folder`, with those of its arrays {name: metadata}, as a whole. Raises OSError."""
+    root = {"zarr_format": 3, "node_type": "group", "attributes": attrs,
+            "consolidated_metadata": {"kind": "inline", "must_understand": False, "metadata": arrays}}
+    files.replace(folder / ROOT, json.dumps(root).encode())
+
+
 def chunk_file(folder, dimensions):
     """File of the only chunk of the array in `folder`."""
     return folder / "/".join(["c", *("0" * dimensions)])

@@ -1,6 +1,5 @@
 """Arrays of a store, and the file that lists the entries visible to a reader."""
 
-import json
 import math
 from typing import Any
 
@@ -28,9 +27,7 @@ def publish(path, attrs, arrays):
     for array in arrays.values():
         if array["dimension_names"][0] == "time":
             array["shape"][0] = attrs["steps"]
-    root = {"zarr_format": 3, "node_type": "group", "attributes": attrs,
-            "consolidated_metadata": {"kind": "inline", "must_understand": False, "metadata": arrays}}
-    files.replace(path / ROOT, json.dumps(root).encode())
+    array_file.publish(path, attrs, arrays)
 
 
 def array(folder, name, shape, chunk, dtype, dims, units, long_name, fill, between=array_file.SEPARATOR, **attrs):

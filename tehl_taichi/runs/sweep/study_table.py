@@ -324,13 +324,10 @@ class Study(LockedFolder):
         self.written[name] = array_file.write(self.path / name, values, dims, fill, attributes)
 
     def _publish(self):
-        """Replace the group's metadata, with those of its arrays, as a whole."""
-        arrays = self.written
-        coordinates = [key for key in (*self.plan.keys, ONE) if key in arrays and key not in self.plan.dims]
+        """Replace the group's metadata."""
+        coordinates = [key for key in (*self.plan.keys, ONE) if key in self.written and key not in self.plan.dims]
         attrs = {PLAN: self.plan.text, "version": __version__, "commit": commit(), "coordinates": " ".join(coordinates)}
-        root = {"zarr_format": 3, "node_type": "group", "attributes": attrs,
-                "consolidated_metadata": {"kind": "inline", "must_understand": False, "metadata": arrays}}
-        replace(self.path / ROOT, json.dumps(root).encode())
+        array_file.publish(self.path, attrs, self.written)
 
     def _csv(self):
         text = io.StringIO()

@@ -6,7 +6,7 @@ import math
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.surface.maps import flattening_pressure, gaussian_filter
 from tehl_taichi.scene.surface.maps.height_map import Measures, error_on_grid
-from tehl_taichi.scene.yield_pressure import YIELDS
+from tehl_taichi.scene.yield_stress import YIELDS
 
 STEEP = 10.0  # degrees: the film equation takes slopes for small (tan 10 deg = 0.18)
 SHARE = 0.1  # of the rms that a grid, or the map's own points, may miss: a wave of six cells

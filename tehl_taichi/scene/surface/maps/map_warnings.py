@@ -19,7 +19,7 @@ from tehl_taichi.scene.surface.maps.cutoff_choice import (
 )
 from tehl_taichi.scene.surface.maps.form import FLAT
 from tehl_taichi.scene.surface.maps.height_map import LEVELS, ROWS, error_on_grid
-from tehl_taichi.scene.yield_pressure import STEEL
+from tehl_taichi.scene.yield_stress import STEEL
 from tehl_taichi.values.coded_text import Option, grid_option
 from tehl_taichi.values.coded_warning import with_data
 from tehl_taichi.values.digits import number_of

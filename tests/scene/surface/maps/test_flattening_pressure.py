@@ -9,7 +9,7 @@ from tehl_taichi.scene import scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.scene.scene_warnings import doubtful_features
 from tehl_taichi.scene.surface.maps import cutoff_choice, flattening_pressure
-from tehl_taichi.scene.yield_pressure import YIELDS
+from tehl_taichi.scene.yield_stress import YIELDS
 
 STEPS = 2e-6, 2.5e-6
 E = 2 / (2 * 0.91 / 210e9)  # E' of steel on steel, Pa
