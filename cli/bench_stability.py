@@ -18,8 +18,7 @@ def stability(
     match: str = typer.Option("", help="run only the cases with this text in their name"),
     thermal: bool = typer.Option(False, "--thermal/--isothermal", help="run the table with temperatures"),
     random: int = typer.Option(200, min=0, help="number of random scenes after the table"),
-    rough: int = typer.Option(0, min=0, help="number of random contacts of two ground surfaces, with temperatures, after "
-                                             "them"),
+    rough: int = typer.Option(0, min=0, help="number of random contacts of two ground surfaces, with temperatures, after them"),
     seed: int = typer.Option(0, min=0, help="seed of the random scenes"),
     quick: bool = typer.Option(False, "--quick", help="run every sixth case and eight random scenes"),
     only_starts: bool = typer.Option(False, "--starts", help="run only scenes with temperatures: the steady start and one "

@@ -17,17 +17,15 @@ def crack(
     context: typer.Context = None,
     surface: str = typer.Option("worse", help="body with the cracks: a, b or worse (the body that decides the verdict)"),
     side: str = typer.Option("both", help="side of the feature: entry, exit or both"),
-    start: Optional[float] = number("x' of the crack mouth, m (default: place of the largest surface "
-                                    "tension); on the body without the feature, measured "
-                                    "from the place opposite the feature at X = 0"),
+    start: Optional[float] = number("x' of the crack mouth, m (default: place of the largest surface tension); on the body "
+                                    "without the feature, measured from the place opposite the feature at X = 0"),
     angle: float = number("angle of the first segment, degrees; 90 is straight down, larger "
                           "angles lean in the rolling direction", 90.0),
     first: float = number("length of the first segment, m", 5e-6),
     step: float = number("length of the other segments, m", 5e-6),
     length: float = number("length at which the crack stops, m", 100e-6),
     distance: float = number("distance ahead of the tip, m, at which the largest tension sets the direction", 3e-6),
-    threshold: Optional[float] = number("threshold of K_I, Pa sqrt(m); the crack stops below it (default: "
-                                        "none)"),
+    threshold: Optional[float] = number("threshold of K_I, Pa sqrt(m); the crack stops below it (default: none)"),
     residual: Optional[str] = typer.Option(None, help="residual stress along x, Pa, or a CSV file with depth and stress "
                                                       "(m, Pa or the units in the names of its columns)"),
     face_friction: float = typer.Option(0.0, help="friction coefficient of the closed crack faces"),

@@ -197,8 +197,7 @@ def _state(saved):
 
 
 def plot(store: Path = typer.Argument(..., help="store of a run, a study, or the folder of a flank, bearing or cam"),
-         out: Path = typer.Option(None, help="folder for the figures (default: beside the store; for the others: "
-                                             "inside it)"),
+         out: Path = typer.Option(None, help="folder for the figures (default: beside the store; for the others: inside it)"),
          quantity: str = typer.Option(None, help="study: column of its table to draw, such as judged_Fi"),
          format: usual.Format = "png", dpi: usual.Dpi = 160, width: usual.Width = 17.0, force: usual.Force = False,
          at: Optional[float] = typer.Option(None, help="run: position of the (first) feature to draw, in half-widths a "

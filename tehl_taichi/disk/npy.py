@@ -44,7 +44,6 @@ def declared_bytes(file, size):
     shape, _, dtype = HEADERS[version](file)
     found = math.prod(shape) * dtype.itemsize
     if found > size - file.tell() and not dtype.hasobject:  # objects are refused by numpy
-        raise ValueError(f"its header declares "
-                         f"{'x'.join(map(str, shape))} numbers, {memory_limit.words(found)}, and the file holds "
-                         f"{memory_limit.words(size - file.tell())}")
+        raise ValueError(f"its header declares {'x'.join(map(str, shape))} numbers, {memory_limit.words(found)}, and the file "
+                         f"holds {memory_limit.words(size - file.tell())}")
     return found

@@ -66,8 +66,7 @@ def _map(search, which, where, Fi, found, more=""):
     trace = _trace(search, which, found, 0.12 * np.ptp(x)) if found else []
     marked = [*_limit(x, y, full), _marked(search, Fi, found), *trace, *number_trace(search)]
     caption = f"Index Fi {where}, {search.when}{line_words(bool(trace), crosses_limit(full))}{more}."
-    return field_map(f"{search.on}index-{which}", caption, x, y, full, INDEX, "Fi", search.along, "y (µm)", marked,
-                     height=440)
+    return field_map(f"{search.on}index-{which}", caption, x, y, full, INDEX, "Fi", search.along, "y (µm)", marked, height=440)
 
 
 def _marked(search, Fi, found):
@@ -185,9 +184,8 @@ def _path(search, which, text, history):
     traces = [line(dip / 1e6, strike / 1e6, "path", colour(0)),
               line(u + radius * np.cos(angle), v + radius * np.sin(angle), "smallest circle", colour(1)),
               marks(dip[ends] / 1e6, strike[ends] / 1e6, "points on the circle", colour(1), symbol="circle")]
-    caption = (f"Shear path of the "
-               f"{text} on its critical plane{_briefly(search)}: amplitude {value_text(radius * 1e6, unit='Pa')}, "
-               f"largest normal stress {value_text(normal.max(), unit='Pa')}.")
+    caption = (f"Shear path of the {text} on its critical plane{_briefly(search)}: amplitude "
+               f"{value_text(radius * 1e6, unit='Pa')}, largest normal stress {value_text(normal.max(), unit='Pa')}.")
     return stack(f"{search.on}path-{which}", caption, "shear along dip (MPa)",
                  [("shear along strike (MPa)", traces, {"scaleanchor": "x", "constrain": "domain"})], {"constrain": "domain"},
                  height=400)

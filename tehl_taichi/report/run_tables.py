@@ -173,5 +173,3 @@ def provenance(store):
 
 def _word(value):
     return value if isinstance(value, str) else json.dumps(value)
-
-

@@ -31,9 +31,8 @@ def shared_words(scene):
 def _contact(scene):
     c, s = scene.contact, Scales.of(scene)
     side = "" if c.kind != "elliptic" else f" along x and {value_text(c.radius_y, unit='m')} across"
-    return (f"A {c.kind} contact of reduced radius "
-            f"{value_text(c.radius_x, unit='m')}{side} carries {_load(scene)}: Hertz pressure "
-            f"{value_text(s.p_H, unit='Pa')}, {_half_axes(s)}. {_bodies(scene)}")
+    return (f"A {c.kind} contact of reduced radius {value_text(c.radius_x, unit='m')}{side} carries {_load(scene)}: Hertz "
+            f"pressure {value_text(s.p_H, unit='Pa')}, {_half_axes(s)}. {_bodies(scene)}")
 
 
 def _half_axes(s):

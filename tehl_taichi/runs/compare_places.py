@@ -134,8 +134,7 @@ class PlaceComparison:
         met = {row.name for row in self.rows if len(row.numbers) - row.numbers.count(None) > 1}
         missing = {name for name in self.quantities for table in self.tables if name not in {one for one, _ in table.numbers}}
         missing |= self.quantities.keys() - met
-        return list(dict.fromkeys(row.name for row in self.rows
-                                  if row.name in missing or len(set(row.texts) - {NONE}) > 1))
+        return list(dict.fromkeys(row.name for row in self.rows if row.name in missing or len(set(row.texts) - {NONE}) > 1))
 
     def common_places(self) -> int:
         """Number of places that all results have."""

@@ -102,8 +102,7 @@ def place_table(kind, found):
 
 def _of_flank(flank):
     places = [Place(at.point or round(at.x_pl, SAME_WAY), where(at), at.x_pl * 1e3) for at, *_ in flank.rows]
-    about = {"name": flank.name,
-             **flat({key: value for key, value in flank.record["geometry"].items() if key in OWN_KEYS})}
+    about = {"name": flank.name, **flat({key: value for key, value in flank.record["geometry"].items() if key in OWN_KEYS})}
     return _of_positions(flank, places, flank_columns.COLUMNS, about, ALONG)
 
 
@@ -214,5 +213,3 @@ def check_alike(tables):
         if [*map(full_name, first.split(", "))] != [*map(full_name, second.split(", "))]:
             raise SceneError(f"{tables[0].folder} is over {first} and {other.folder} over {second}; allowed: studies over the "
                              "same keys")
-
-

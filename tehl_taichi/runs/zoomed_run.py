@@ -60,8 +60,7 @@ def levels(saved, progress):
     scene = saved.scene
     factors = zoom_need.levels(scene.zoom.factor)
     progress.stage(ZOOM, 0, len(saved) - 1)
-    found = zoomed_passage.passages(scene, saved, factors, functools.partial(progress.stage, ZOOM),
-                                    zoom_need.begin(saved))
+    found = zoomed_passage.passages(scene, saved, factors, functools.partial(progress.stage, ZOOM), zoom_need.begin(saved))
     saved.kept_states = None
     run = ReadOnce(saved)
     return [ZoomLevel(one, ZoomedReader(run, one, scene.symmetric)) for one in found]
@@ -107,8 +106,7 @@ def corrected(saved, found, searches, passage, domain):
     """
     grids = [coarse_runs.passage_readings(saved.scene, saved, saved.scalar, searches),
              *(coarse_runs.passage_readings(saved.scene, level.reader, level.reader.scalar, level.searches) for level in found)]
-    changed = {name for name, reading in grids[-1].items()
-               if name not in grids[0] or reading.value != grids[0][name].value}
+    changed = {name for name, reading in grids[-1].items() if name not in grids[0] or reading.value != grids[0][name].value}
     sizes, reasons = bars(grids, passing=True)
     sizes, reasons = ({name: one for name, one in part.items() if name in changed} for part in (sizes, reasons))
     if found[-1].passages[0].entries[:1] > [1]:

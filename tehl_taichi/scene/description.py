@@ -196,11 +196,10 @@ class Scene:
                 farther = f", or a wider domain: {words}" if (words := domain_warnings.domain_words(self)) else ""
                 together = " together" * (highest > max(f.top for f in self.features))
                 more = math.sqrt(highest / gap) * abs(end) / min(abs(end), domain.INLETS[0])
-                raise SceneError(f"{self._load_words()} gives a half-width a of {s.a:.3g} m and so, at grid.{key} = {end:g} "
-                                 f"a, an undeformed gap of {gap:.3g} m, smaller than the height of "
-                                 f"{domain_warnings.higher(self, highest)}, {highest:.3g} m; "
-                                 f"allowed: a height of at most {gap:.2g} m{together}, more load{farther}"
-                                 f"{self.load_meant(more) or self._form_words()}")
+                raise SceneError(f"{self._load_words()} gives a half-width a of {s.a:.3g} m and so, at grid.{key} = {end:g} a, "
+                                 f"an undeformed gap of {gap:.3g} m, smaller than the height of "
+                                 f"{domain_warnings.higher(self, highest)}, {highest:.3g} m; allowed: a height of at most "
+                                 f"{gap:.2g} m{together}, more load{farther}{self.load_meant(more) or self._form_words()}")
 
     def _check_zoom(self):
         """Check that a scene with a fine window stores every step."""

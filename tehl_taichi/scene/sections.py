@@ -265,8 +265,7 @@ class Fatigue:
     length: float = quantity(10e-6, "m", "side of the square over which stresses are averaged for a second index (material "
                                          "length); 0: only stresses at points", 0.0, 1e-3)
     shear: bool = switch(True, "include the shear tractions")
-    thermal_stress: Union[bool, str] = switch(AUTO, "include thermal stress; auto: if temperatures are computed",
-                                              auto=True)
+    thermal_stress: Union[bool, str] = switch(AUTO, "include thermal stress; auto: if temperatures are computed", auto=True)
     residual_xx: float = quantity(0.0, "Pa", "constant residual stress along x", -LARGEST_RESIDUAL, LARGEST_RESIDUAL,
                                   usual=-2e8, least=LEAST_RESIDUAL)
     residual_yy: float = quantity(0.0, "Pa", "constant residual stress along y", -LARGEST_RESIDUAL, LARGEST_RESIDUAL,
@@ -430,10 +429,8 @@ class Zoom:
     """
 
     factor: int = count_of(0, "cells of the window in a cell of the grid, along each axis; 0: no window", 0, 2, 4, 8, 16)
-    width_x: float = quantity(0.0, "a", "width of the window along x; 0: as the feature needs", 0.0, 4.0, usual=0.8,
-                              least=0.1)
-    width_y: float = quantity(0.0, "a", "width of the window along y; 0: as the feature needs", 0.0, 8.0, usual=0.8,
-                              least=0.1)
+    width_x: float = quantity(0.0, "a", "width of the window along x; 0: as the feature needs", 0.0, 4.0, usual=0.8, least=0.1)
+    width_y: float = quantity(0.0, "a", "width of the window along y; 0: as the feature needs", 0.0, 8.0, usual=0.8, least=0.1)
     from_x: Union[float, str] = quantity(AUTO, "a", "first position of the feature with a window; auto: shortly before the "
                                          "grid no longer resolves the pressure; -inf: its whole path", infinite=True, usual=0.5)
     to_x: float = quantity(math.inf, "a", "last position of the feature with a window; inf: its whole path", infinite=True)

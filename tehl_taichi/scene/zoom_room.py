@@ -99,8 +99,7 @@ def _inside_across(scene, other, first):
 def extent(scene, axis, surface):
     """Extent (low, high), in a, of the features on a surface (MovingSurface), along an axis."""
     a = Scales.of(scene).a
-    sides = [(getattr(f, axis), f.reach if axis == "x" else math.inf if f.transverse else f.reach_y)
-             for f in surface.features]
+    sides = [(getattr(f, axis), f.reach if axis == "x" else math.inf if f.transverse else f.reach_y) for f in surface.features]
     return min((at - reach) / a for at, reach in sides), max((at + reach) / a for at, reach in sides)
 
 

@@ -33,8 +33,7 @@ from tehl_taichi.values.coded_warning import lists
 from tehl_taichi.values.path_arguments import path_of
 from tehl_taichi.values.units import amount
 
-ASSUMPTIONS = ("rings keep their shape and do not tilt", "elements roll without gross slip",
-               "centrifugal forces are left out")
+ASSUMPTIONS = ("rings keep their shape and do not tilt", "elements roll without gross slip", "centrifugal forces are left out")
 SPINS = "spin by outer raceway control (Jones 1959): all of it at the inner ring"
 NOTICED = 0.01  # of the largest load, of a centrifugal force
 SLIPPED = 41  # points of the slip over an ellipse that are kept

@@ -80,8 +80,7 @@ def _source(found, changed=()):
 
 def _changed(keys, given, made):
     """Dimensions among the `given` keys of a bearing `made` that differ from these other keys."""
-    return tuple(key for key in given if key not in DUTY
-                 and getattr(made, key) != keys.get(key, getattr(RollingBearing, key)))
+    return tuple(key for key in given if key not in DUTY and getattr(made, key) != keys.get(key, getattr(RollingBearing, key)))
 
 
 def as_given(name, changed):

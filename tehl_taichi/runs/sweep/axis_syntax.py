@@ -190,8 +190,7 @@ def _check_range(text, a, b, count, log):
     if log and not (a > 0 and b > 0):
         raise SceneError(f"{text}: a logarithmic range needs positive ends")
     if count is None and not a < b:
-        raise SceneError(f"{text}: the first end must be smaller than the second (decimals need a point, no "
-                         "comma)")
+        raise SceneError(f"{text}: the first end must be smaller than the second (decimals need a point, no comma)")
     if count is not None and (not 1 <= int(count) <= MOST or (int(count) == 1 and a != b)):
         raise SceneError(f"{text} must have 2 to {MOST} values, {FORMS}")
 

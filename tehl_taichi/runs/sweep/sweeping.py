@@ -98,4 +98,3 @@ def _keep(study, number, answer, keep, progress):
     study.add(record)
     if progress:
         progress(study, record)
-

@@ -70,8 +70,7 @@ class Traction:
     @property
     def across(self) -> str:
         """Key along the curves: srr, or the only key with several values."""
-        several = [key for key in ALONG if key in self.study.plan.keys
-                   and len(self.study.plan.coordinate(key)[1]) > 1]
+        several = [key for key in ALONG if key in self.study.plan.keys and len(self.study.plan.coordinate(key)[1]) > 1]
         return several[0] if several else SRR
 
     @property
@@ -117,8 +116,7 @@ class Traction:
         from tehl_taichi.view.figures.figure_style import FigureStyle, default_folder
 
         page = FigureStyle(format, dpi, width, force)
-        (path,) = page.write(folder or default_folder(self.study.path), {
-            "traction": lambda: traction_figure.drawn(page, self)})
+        (path,) = page.write(folder or default_folder(self.study.path), {"traction": lambda: traction_figure.drawn(page, self)})
         return path
 
     def __repr__(self):

@@ -41,8 +41,7 @@ def _map(page, found):
 
 def _picture(ax, found):
     """Draw heights as a picture (a triangle mesh of a million points takes minutes); each point is the centre of its pixel."""
-    ends = [end * 1e6 for at in (found.x, found.y)
-            for end in (at[0] - (at[1] - at[0]) / 2, at[-1] + (at[1] - at[0]) / 2)]
+    ends = [end * 1e6 for at in (found.x, found.y) for end in (at[0] - (at[1] - at[0]) / 2, at[-1] + (at[1] - at[0]) / 2)]
     between = "bilinear" if max(found.values.shape) <= COARSE else "antialiased"
     if found.filled.any():
         _cover(ax, found.filled, ends)
