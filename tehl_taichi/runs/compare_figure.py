@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl_taichi.scene.feature_wording import from_centre, position_title, position_word
 from tehl_taichi.values.checks import number
 from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.moments import ROOM, WINDOW, Moments
@@ -90,8 +91,13 @@ def _moment(curves, at):
     if not any(c.passes for c in curves):
         return "steady"
     off = max(abs(c.moments.moved[c.entry - 1] - at) for c in curves if c.passes)
-    where = f"feature at {at:+.2f} a" + (f" (up to {off:.2f} a away)" if off > 0.05 else "")
+    where = f"{_said(curves, position_word)} at {at:+.2f} a" + (f" (up to {off:.2f} a away)" if off > 0.05 else "")
     return where + ("" if all(c.passes for c in curves) else ", steady for runs without a passage")
+
+
+def _said(curves, words):
+    """Text of words(scene) of all passages, each once."""
+    return " or ".join(dict.fromkeys(words(c.store.scene) for c in curves if c.passes))
 
 
 def _legend(page, figure, curves):
@@ -144,7 +150,7 @@ def _over_passage(ax, curves, name, factor):
     for c in curves:
         if c.passes:
             ax.plot(c.moments.moved, c.store.scalar(name)[1:] * factor, color=c.colour)
-    ax.set_xlabel("feature position x_a / a")
+    ax.set_xlabel(_said(curves, position_title))
 
 
 def _largest_pressure(ax, curves):
@@ -169,4 +175,4 @@ def _index(ax, curves):
         ax.plot(x, Fi[:, j], color=c.colour)
         ax.plot(x[i], Fi[i, j], "+", color=c.colour, ms=ax.xaxis.label.get_size(), mew=0.2 * ax.xaxis.label.get_size(),
                 clip_on=False)  # whole at the rim, too
-    ax.set(xlabel="x from the feature's centre (µm)", ylabel="Fi, critical row")
+    ax.set(xlabel=_said(curves, from_centre), ylabel="Fi, critical row")

@@ -178,6 +178,20 @@ def test_whole_domains_are_compared_along_the_row_of_the_largest_pressure(tmp_pa
     assert labels == ["srr = -0.12", "srr = 0.12"]
 
 
+@pytest.mark.parametrize("places, at, position, centre", [
+    ((0.0, 0.0), "feature", "feature", "x from the feature's centre (µm)"),
+    ((2e-5, 2e-5), "origin of feature.x", "origin of feature.x", "x from the origin of feature.x (µm)"),
+    ((0.0, 2e-5), "feature or origin of feature.x", "feature x / a or position of the origin of feature.x",
+     "x from the feature's centre (µm) or x from the origin of feature.x (µm)")])
+def test_positions_count_from_the_origin_of_features_that_lie_beside_it(tmp_path, monkeypatch, places, at, position, centre):
+    monkeypatch.setattr(made_results, "run", functools.partial(made_results.run, search=made_results.fatigue()))
+    figure, _, title, _ = shown_of(tmp_path, monkeypatch, *(made_results.SMALL.replace(**{"feature.x": x, "srr": srr})
+                                                            for x, srr in zip(places, (-0.12, 0.12))))
+    assert f", {at} at +0.50 a" in title
+    labels = [" ".join(ax.get_xlabel().split()) for ax in figure.axes]
+    assert labels.count(f"position of the {position} x / a") == 2 and centre in labels
+
+
 @pytest.mark.parametrize("changes, along", [({"srr": 0.05}, "x / a"), ({"load": 9e5}, "x (mm)")])
 def test_lines_of_the_figure_are_in_the_units_of_their_axes(tmp_path, monkeypatch, changes, along):
     """Contacts of one width are drawn over x/a, others over mm."""

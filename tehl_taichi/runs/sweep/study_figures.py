@@ -20,6 +20,7 @@ from tehl_taichi.view.figures.map_panels import bar
 FILM = "transient_h_min_m"
 TOLD = 120  # cells of a map with their values in them
 TICKS = 12
+EVEN = 1e-3  # of a step: ranges on a screen have four digits
 HIGH = 1.7  # rows of lines: height of a figure with one panel
 
 
@@ -93,7 +94,7 @@ def lines(page, study, name):
 
 
 def heat_map(page, study, name):
-    """Figure of the quantity over two keys, a cell per case; cases without a result are hatched."""
+    """Figure of the quantity over two keys, an equal cell per case; cases without a result are hatched."""
     values, _, label = with_errors(study, name)
     values = values.reshape(study.plan.shape).T
     figure, ((ax,),) = page.figure(height=HIGH * page.row())
@@ -102,15 +103,21 @@ def heat_map(page, study, name):
     image = ax.imshow(values, origin="lower", aspect="auto", cmap=palette.RESULT)
     bar(figure, image, ax, label)
     for axis, key, at in zip("xy", study.plan.keys, (ax.xaxis, ax.yaxis)):
-        _, key_label, ticks = axis_values(study, key)
+        x, key_label, ticks = axis_values(study, key)
         shown = range(0, len(ticks), -(-len(ticks) // (TICKS // 2 if page.narrow else TICKS)))
         at.set_ticks(list(shown), [ticks[n] for n in shown])
-        ax.set(**{f"{axis}label": key_label})
+        ax.set(**{f"{axis}label": key_label + ("" if _even(x) else ", not to scale")})
     if values.size <= TOLD and 3 * values.shape[1] * page.text < 47 * page.inches:
         _write_values(ax, values)
     missing = " (hatched: no result)" if np.isnan(values).any() else ""
     page.title(figure, f"{study.plan.scene.name}: {column_name(name)}{missing}")
     return figure
+
+
+def _even(x):
+    """Whether numbers are evenly spaced."""
+    steps = np.diff(x)
+    return steps.size < 2 or np.allclose(steps, steps[0], rtol=EVEN, atol=0.0)
 
 
 def _write_values(ax, values):

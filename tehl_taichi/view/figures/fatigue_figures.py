@@ -225,26 +225,26 @@ def worst_points(page, found):
     height = 1.6 * page.row(columns) * len(shown) * (2 / columns)
     figure, axes = page.figure(len(shown) * 2 // columns, columns, height)
     for (left, right), (name, history) in zip(axes.reshape(-1, 2), shown):
-        worst_point(left, right, name, history, found.a)
+        worst_point(left, right, name, history, found)
     page.legend(figure)
     page.title(figure, found.constants)
     return figure
 
 
-def worst_point(left, right, title, worst, a):
+def worst_point(left, right, title, worst, found):
     """Draw the largest principal stress over the feature's position, and the shear path on the critical plane with its
-    circle.
+    circle, of a point of a :class:`DrawnSearch`.
     """
     from matplotlib.patches import Circle
 
-    position, stress = worst["x_a"][:-1] / a, worst["stress"]
+    position, stress = worst["x_a"][:-1] / found.a, worst["stress"]
     dip, strike, normal = shear_path(stress, worst["normal"])
     u, v, radius = worst["circle"]
     ends = on_circle(dip, strike, worst["circle"])
     left.axhline(0, color=palette.RULE, lw=0.8, zorder=0)
     left.plot(position, largest_principal(stress)[:-1] / 1e6, label="largest principal stress σ₁")
     left.plot(position, normal[:-1] / 1e6, label="stress normal to the critical plane")
-    left.set(xlabel="feature position x_a / a", ylabel="stress (MPa)", title=title)
+    left.set(xlabel=found.positions, ylabel="stress (MPa)", title=title)
     right.plot(dip / 1e6, strike / 1e6, ".-", ms=0.2 * left.xaxis.label.get_size(), lw=0.8)
     right.add_patch(Circle((u / 1e6, v / 1e6), radius / 1e6, fill=False, color=palette.VERMILLION))
     right.plot(dip[ends] / 1e6, strike[ends] / 1e6, "o", color=palette.VERMILLION)

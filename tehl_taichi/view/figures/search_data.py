@@ -8,7 +8,7 @@ import numpy as np
 from tehl_taichi.fatigue.judged_layers import deciding
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.fatigue.search_result import SearchResult
-from tehl_taichi.scene.feature_wording import feature_word, from_centre, position_word
+from tehl_taichi.scene.feature_wording import feature_word, from_centre, position_title, position_word
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.values.units import amount
 from tehl_taichi.view.figures.index_text import REST, resolved_words
@@ -25,7 +25,8 @@ def in_micrometres(depth):
 class DrawnSearch:
     """title: name of the scene; result: numbers and arrays; a: m; along: title of the axis along x; depth: µm, of the layer to
     show besides the surface, or None (the worst); whose: text of the passing feature; part: DrawnSearch of the resolved part,
-    or None; when: text of the moments, "" without a part; early: whether the verdict rests on the resolved part.
+    or None; when: text of the moments, "" without a part; early: whether the verdict rests on the resolved part; positions:
+    title of the axis of feature positions.
     """
 
     title: str
@@ -37,6 +38,7 @@ class DrawnSearch:
     part: Any = None
     when: str = ""
     early: bool = True
+    positions: str = "position of the feature x / a"
 
     @classmethod
     def of(cls, scene, result, depth=None):
@@ -47,9 +49,10 @@ class DrawnSearch:
         along = from_centre(scene, result.numbers.get("carries_feature", True))
         a, whose = Scales.of(scene).a, feature_word(scene)
         known = result.part
-        part = cls(name, known, a, along, depth, whose, when=resolved_words(known.summary, position_word(scene))
-                   ) if known and known.Fi is not None else None
-        return cls(name, result, a, along, depth, whose, part, REST if part else "", deciding(result.summaries)[1])
+        part = cls(name, known, a, along, depth, whose, when=resolved_words(known.summary, position_word(scene)),
+                   positions=position_title(scene)) if known and known.Fi is not None else None
+        return cls(name, result, a, along, depth, whose, part, REST if part else "", deciding(result.summaries)[1],
+                   position_title(scene))
 
     @property
     def summary(self):

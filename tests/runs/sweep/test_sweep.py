@@ -329,6 +329,18 @@ def test_the_heat_map_shows_each_case_where_it_belongs(study):
     assert [text.get_text() for text in ax.get_yticklabels()] == ["0.5", "1", "1.5"] and "µm" in ax.get_ylabel()
 
 
+@pytest.mark.parametrize("srr, height, told", [([-0.1, 0.1, 0.3], [1e-6, 2e-6, 4e-6], "y"), ([-0.1, 0.1], [1e-6, 2e-6], ""),
+                                              ([-0.1, 0.0, 0.3], [1e-6, 2e-6, 3e-6], "x")])
+def test_a_heat_map_says_where_its_cells_are_not_to_scale(tmp_path, srr, height, told):
+    pytest.importorskip("matplotlib")
+    from tehl_taichi.runs.sweep import study_figures
+    from tehl_taichi.view.figures.figure_style import FigureStyle
+
+    study = sweeping.run(plan(GEAR, {"srr": srr, "height": height}), tmp_path / "s.zarr", workers=1, work=formula)
+    ax = study_figures.heat_map(FigureStyle(), study, "fatigue_Fi_max").axes[0]
+    assert [label.endswith(", not to scale") for label in (ax.get_xlabel(), ax.get_ylabel())] == ["x" in told, "y" in told]
+
+
 def test_a_sweep_runs_its_cases(taichi_cpu, tmp_path):
     import tehl_taichi as tehl
 
