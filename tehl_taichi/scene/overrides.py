@@ -171,7 +171,8 @@ def _feature(data, number, dotted):
     features = data.get("feature", [])
     if not isinstance(features, list) or len(number) > 6 or int(number) >= len(features):
         count = len(features) if isinstance(features, list) else 0
-        raise SceneError(f"{key_shown(dotted)}: scene {data.get('name')!r} has {number_of(count, 'feature')}")
+        raise SceneError(f"{key_shown(dotted)}: scene {data.get('name')!r} has {number_of(count, 'feature')}; add one in a "
+                         "scene file, as [[feature]]")
     return features[int(number)] if isinstance(features[int(number)], dict) else {}
 
 

@@ -165,7 +165,7 @@ def test_a_named_oil_comes_before_its_changes():
                                                           "waviness")),
     ({"feature.extent_x": 1e-4}, ("feature.extent_x = 0.0001 has no effect", "shape 'cosine'")),
     ({"srr": 0.0, "operation.u_a": 1.0, "operation.u_b": 2.0}, ("operation.u_a = 1.0 and srr = 0.0 contradict",)),
-    ({"feature.1.height": 1e-6}, ("feature.1.height", "has 1 feature")),
+    ({"feature.1.height": 1e-6}, ("feature.1.height", "has 1 feature; add one in a scene file, as [[feature]]")),
     ({"bodies.yield_stress": 2e9}, ("unknown key bodies.yield_stress; each body has its own keys, as bodies.a.yield_stress",)),
     ({"bodies.foo": 1.0}, ("unknown key bodies.foo; each body has its own keys, as bodies.a.E",)),
     ({"zoom": 2}, ("[zoom] must be a table of keys and values, not 2; set its keys, as zoom.factor",)),

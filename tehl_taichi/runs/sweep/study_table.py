@@ -140,8 +140,8 @@ class Study(LockedFolder):
             yield
         except OSError as error:
             what = f"cannot write to {self.path}: {reason(error)}; stored cases are kept, and the same command resumes"
-            begun = self.status.any() or any((self.path / CASES).glob("*.zarr"))
-            raise (Interrupted(what) if begun else store_error(error, what)) from None
+            has_data = self.status.any() or any((self.path / CASES).glob("*.zarr"))
+            raise (Interrupted(what) if has_data else store_error(error, what)) from None
 
     def close(self) -> None:
         """Write all pending data and release the lock."""
