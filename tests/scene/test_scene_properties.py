@@ -1,4 +1,4 @@
-"""The same scene in other units of length, seen in a mirror, on cells of another shape: the same answer."""
+"""The same scene in other units of length and time, seen in a mirror, on cells of another shape: the same answer."""
 
 import numpy as np
 import pytest
@@ -37,6 +37,35 @@ def test_lengths_and_speeds_twice_as_large_change_no_pressure(y):
     own, large = (assessment.run(s, shots).summary for s, shots in ((scene, one), (enlarged(scene, 2.0), two)))
     assert large["Fi_max"] == pytest.approx(own["Fi_max"], rel=1e-4)
     assert large["x_m"] == pytest.approx(2 * own["x_m"], abs=1e-7) and large["y_m"] == pytest.approx(2 * own["y_m"], abs=1e-7)
+
+
+def slower(scene, by):
+    """Lengths so many times as large, speeds as many times as slow in oil of the square of it the viscosity: Péclet numbers,
+    pressures, shear stresses and temperatures stay, times are squared.
+    """
+    wide = enlarged(scene, by)
+    return wide.replace(speed=scene.operation.u_m / by, **{"oil.eta0": by**2 * scene.oil.eta0,
+                                                           "fatigue.length": by * scene.fatigue.length})
+
+
+def test_lengths_twice_as_large_at_half_the_speed_change_no_temperature():
+    """With different bodies, thermal stress and stressed sizes."""
+    scene = tehl.scene("gear").replace(srr=-0.3, **{
+        **SMALL, "thermal.on": True, "feature.shape": "ridge", "height": 5e-7, "oil.viscosity": "barus", "oil.alpha": 1.2e-8,
+        "oil.beta_eta": 0.03, "oil.Gamma0": 60.0, "bodies.a.k": 20.0, "bodies.b.E": 300e9, "fatigue.depths": "auto",
+        "fatigue.weibull": 9.0, "fatigue.length": 0.0})
+    one, two = passage(scene), passage(slower(scene, 2.0))
+    for a, b in zip(one[::4], two[::4], strict=True):
+        assert b.time == pytest.approx(4 * a.time, rel=1e-9)
+        for name in ("pressure", "traction_x_a", "traction_x_b", "temperature_a", "temperature_b"):
+            scale = np.abs(a.fields[name]).max()
+            np.testing.assert_allclose(b.fields[name], a.fields[name], atol=1e-4 * scale, err_msg=name)
+        assert b.scalars["h_min_m"] == pytest.approx(2 * a.scalars["h_min_m"], rel=1e-4)
+    own, large = (assessment.run(s, shots).summary for s, shots in ((scene, one), (slower(scene, 2.0), two)))
+    for part, other in ((own, large), (own["below"], large["below"]), (own["contact_alone"], large["contact_alone"])):
+        assert other["Fi_max"] == pytest.approx(part["Fi_max"], rel=1e-4)
+    assert large["below"]["depth_m"] == pytest.approx(2 * own["below"]["depth_m"], rel=1e-3)
+    assert large["stressed"]["area_m2"] == pytest.approx(2 * own["stressed"]["area_m2"], rel=2e-3)  # per metre across
 
 
 def test_a_passage_in_the_mirror():
