@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from tehl_taichi.profiles import confirmed_starts, stability, stability_scenes
 
-from tehl_taichi.march import passage
 from tehl_taichi.scene import Scene, SceneError, scene, thin_film
 from tehl_taichi.scene.scales import Scales
 
@@ -71,7 +70,7 @@ def test_starts_are_scenes_with_temperatures(monkeypatch):
     drawn = stability.starts(stability_scenes.random_cases(20, 3))
     assert len(drawn) > 4 and all(not s.isothermal and s.time.steps == 1 for s in drawn.values())
     shot = SimpleNamespace(scalars={"newton": 1.0, "cycles": 2.0}, unsettled="it moves")
-    monkeypatch.setattr(passage, "march", lambda description: iter([shot, shot]))
+    monkeypatch.setattr(stability, "march", lambda description: iter([shot, shot]))
     monkeypatch.setattr(stability, "sound", lambda shot: True)
     found = stability.run_case("moving", scene("gear"))
     assert found.unsettled and (found.verdict, found.reason, found.steps) == ("converged", "it moves", 1)
@@ -97,7 +96,7 @@ def test_an_error_is_a_failure(monkeypatch):
         raise ZeroDivisionError("1/0")
         yield
 
-    monkeypatch.setattr(passage, "march", broken)
+    monkeypatch.setattr(stability, "march", broken)
     assert stability.run_case("broken", scene("gear")).verdict == "failed"
 
 
@@ -150,7 +149,7 @@ def test_starts_are_confirmed_by_half_a_step_and_twice_the_columns(monkeypatch):
         hot = description.time.courant < 1
         yield SimpleNamespace(scalars={"h_c_m": film, "film_max_C": 100.0 + hot}, unsettled="it moves" * (film > 2e-6))
 
-    monkeypatch.setattr(passage, "march", march)
+    monkeypatch.setattr(confirmed_starts, "march", march)
     coarse, fine = (scene("gear").replace(**{"grid.nx": nx, "grid.ny": 32}) for nx in (64, 128))
     found, stopped = confirmed_starts.confirm({"coarse": coarse, "fine": fine})
     assert found == confirmed_starts.Confirmed("coarse", 64, 0.0, 1.0, pytest.approx(2.28 / 1.64 - 1), 0.0, True)
@@ -181,7 +180,7 @@ def test_a_start_is_doubled_until_it_holds(monkeypatch):
         yield SimpleNamespace(scalars={"h_c_m": (1 + 1 / nx) * 1e-6, "film_max_C": 100 + 128 / nx + 5 * half * (nx < 128)},
                               unsettled="")
 
-    monkeypatch.setattr(passage, "march", march)
+    monkeypatch.setattr(confirmed_starts, "march", march)
     coarse = scene("gear").replace(**{"grid.nx": 32, "grid.ny": 32})
     found, = confirmed_starts.confirm({"case": coarse}, again=6)
     assert found.holds and (found.columns, found.finer_K, found.half_K) == (128, 0.5, 0.0)
