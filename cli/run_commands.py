@@ -186,7 +186,10 @@ def _before_window(context, changes, description):
     if "zoom.factor" in changes:
         raise SceneError(f"--zoom auto and zoom.factor = {changes['zoom.factor']} contradict each other: give one of them")
     if why := zoom_room.why_none(description):
-        say_idle(context, why, "zoom")
+        if description.transient and not zoom_room.why_none(description.replace(**{"time.steps": -1})):
+            say(f"--zoom auto waits for more steps: {why}")
+        else:
+            say_idle(context, why, "zoom")
         return description
     given = {key for key in idle_keys.user_keys(description) if not key.startswith("zoom.")}
     return description.replace(**{"zoom.factor": 0}).with_user_keys(given)

@@ -43,13 +43,14 @@ def summary(peaks, at_the_surface, surface, strength):
     """Summary of one body, {name: number}, for the peak that is closest to the yield stress of its depth.
 
     peaks: list of VonMisesPeak; at_the_surface: largest von Mises stress at the surface, Pa; surface: the MovingSurface;
-    strength: its Strength.
+    strength: its Strength, without whose yield stress `yields` is None.
     """
     share = share_of(strength)
     top = max(peaks, key=lambda peak: (peak.value * share(peak.depth), peak))
     limit = strength.yield_stress(top.depth)
+    yields = top.value > limit if strength.knows_yield_stress else None
     return {"max_Pa": top.value, "depth_m": top.depth, "x_m": top.x, "y_m": top.y, "surface": surface.name,
-            "surface_max_Pa": at_the_surface, "yield_stress_Pa": limit, "yields": top.value > limit}
+            "surface_max_Pa": at_the_surface, "yield_stress_Pa": limit, "yields": yields}
 
 
 def peak(history, places):

@@ -54,7 +54,7 @@ def _of_films(flank, doubts):
     thinnest = place_verdict.thinnest(flank.rows)
     question = "How thick is the film along the flank?"
     if not thinnest:
-        return Answer(question, "No answer: no position converged.", "none", (), doubts)
+        return Answer(question, "No answer: no position has a result.", "none", (), doubts)
     text, at = thinnest
     return Answer(question, f"The smallest film is {text}, at {at.full}.", "none",
                   (*place_page.smooth_contacts(flank), *film_words(flank)), doubts)

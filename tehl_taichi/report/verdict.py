@@ -21,7 +21,7 @@ from tehl_taichi.report.number_text import index, sentence_case, value_text
 from tehl_taichi.report.scene_text import WHOLE, material, moments, when
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.summary import life, limit_meaning, rim_warnings
-from tehl_taichi.runs.summary.result_warnings import place_text, steel_bodies
+from tehl_taichi.runs.summary.result_warnings import passes_yield_stress, place_text, steel_bodies
 from tehl_taichi.scene import feature_wording, yield_stress
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import total_steps
@@ -264,7 +264,7 @@ def _cut(store):
 def _yielding(summary, scene):
     """Warning that a body would yield; it comes first because it changes the meaning of the index."""
     found = summary.get("von_mises")
-    if "fatigue" not in summary or not found or not found["yields"] or found["surface"] in steel_bodies(summary):
+    if "fatigue" not in summary or not found or not passes_yield_stress(found) or found["surface"] in steel_bodies(summary):
         return ()
     elastic = ("Both bodies are elastic here, while real ones would yield there and flatten; the index is that of elastic "
                "bodies.")
@@ -272,7 +272,7 @@ def _yielding(summary, scene):
         elastic = "This body has no yield stress, so it is elastic here, while a real one would yield."
     limit, name = found["yield_stress_Pa"], found["surface"]
     body = getattr(scene, f"body_{name}")
-    doubt = yield_stress.doubt(limit, body, name)
+    doubt = "" if found["yields"] else yield_stress.doubt(body, name)
     return (f"The von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place_text(found, 'µm')}, more than "
             f"{yield_stress.words(limit, body)}. {f'{doubt[0].upper()}{doubt[1:]}.' if doubt else elastic}",)
 

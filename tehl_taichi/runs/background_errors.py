@@ -17,7 +17,7 @@ from tehl_taichi.disk import memory_limit
 from tehl_taichi.engine import cores, runtime
 from tehl_taichi.errors import are_options_typed, typed_options
 from tehl_taichi.march.accuracy import coarse_runs
-from tehl_taichi.plastic import memory
+from tehl_taichi.runs.run_in_memory import run_in_bytes
 from tehl_taichi.runs.sweep import job
 from tehl_taichi.scene import memory_demand
 
@@ -51,7 +51,7 @@ def takes_long(scene):
 
 def has_room(scene):
     """Whether there is memory for the run and the process beside it: without, the system would end one of them."""
-    needed = memory_demand.needed_bytes(scene) + memory.needed_bytes(scene)
+    needed = memory_demand.needed_bytes(scene) + run_in_bytes(scene)
     return (1 + COARSE) * needed + PROCESS <= memory_limit.SHARE * memory_limit.available()
 
 

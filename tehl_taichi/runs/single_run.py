@@ -14,6 +14,7 @@ from tehl_taichi.fatigue.pressure_alone import WITHOUT, searched, why_none
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.progress import ERRORS, PASSAGE, STEADY, Progress, progress_of
 from tehl_taichi.runs.provenance import provenance
+from tehl_taichi.runs.run_in_memory import run_in_bytes
 from tehl_taichi.runs.stored_run import Run, check_steps
 from tehl_taichi.runs.summary.film_warnings import MOST_FRICTION
 from tehl_taichi.scene import Scene, memory_demand, zoom_room
@@ -62,11 +63,7 @@ def check(scene, path=None, force=False, threads=None, arch=None):
 
 def _check_memory(scene):
     """Raise SceneError if a run of the scene needs more memory than is available."""
-    if not scene.runs_in:
-        return memory_demand.check(scene)
-    from tehl_taichi.plastic import memory
-
-    memory_demand.check(scene, memory.needed_bytes(scene))
+    memory_demand.check(scene, run_in_bytes(scene))
 
 
 def open(path: str | PathLike, stand_in: bool = False) -> Run:

@@ -22,7 +22,7 @@ def zoom(path: str | PathLike, factor: int | str = 4, *, threads: int | None = N
     _check(before, factor)
     if factor == AUTO:
         return _with_needed_window(before, threads, progress)
-    return _with_window(_noted(before, None), factor, threads, progress)
+    return _noted(_with_window(before, factor, threads, progress), None)
 
 
 def run(scene: Scene, path: str | PathLike | None = None, *, threads: int | None = None, progress: Progress | None = None,
@@ -87,8 +87,9 @@ def _with_needed_window(done, threads, progress):
 
 def _with_noted_window(done, factor, threads, progress):
     """The Run with a window of this factor; only an interruption leaves the search open."""
+    done = _noted(done, True)
     try:
-        return _with_window(_noted(done, True), factor, threads, progress)
+        return _with_window(done, factor, threads, progress)
     except Interrupted:
         raise
     except Error:

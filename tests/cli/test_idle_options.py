@@ -25,7 +25,7 @@ def no_work(monkeypatch):
     (("run", "gear", "--dry-run", "--force"), ["--force"]), (("run", "gear", "--dry-run", "--json"), []),
     (("run", "gear", "--dry-run", "--zoom", "auto", "--steady"), ["--zoom auto"]),
     (("run", "smooth-line", "--dry-run", "--zoom", "auto"), ["--zoom auto"]),
-    (("run", "gear", "--dry-run", "--zoom", "auto", "--steps", 1), ["--zoom auto"]),
+    (("run", "gear", "--dry-run", "--zoom", "auto", "--steps", 1), []),
     (("run", "gear", "--dry-run", "--zoom", "auto", "--set", "zoom.width_x=0.5"), []),
     (("run", "gear", "--dry-run", "--zoom", 4, "--steps", 1), ["zoom.factor"]),
     (("run", "gear", "--dry-run", "--zoom", 0, "--steady"), []),
@@ -45,6 +45,14 @@ def test_what_acts_only_with_another_option_is_said(words, said, tmp_path, monke
     monkeypatch.chdir(tmp_path)
     found = [line for line in cli(*words)[1].splitlines() if "no effect" in line]
     assert [line.partition(" has no effect here: ")[0].removeprefix("warning: ") for line in found] == said
+
+
+@pytest.mark.parametrize("steps, said", [(0, True), (1, True), (20, False)])
+def test_a_window_that_a_longer_passage_gets_is_not_without_effect(steps, said, tmp_path, monkeypatch):
+    """`tehl resume` continues the search: the option has an effect, later."""
+    monkeypatch.chdir(tmp_path)
+    text = " ".join(cli("run", "gear", "--dry-run", "--zoom", "auto", "--steps", steps)[1].split())
+    assert ("--zoom auto waits for more steps: a window needs at least 3 stored moments" in text) is said
 
 
 @pytest.mark.parametrize("words", [("bearing", "6206", "--on", "middle", "--no-run"), ("report", "none", "--threads", 0)])

@@ -1,5 +1,6 @@
 """The largest von Mises stress: against closed forms, of every place that is searched, whether a body would yield."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -16,6 +17,7 @@ from tehl_taichi.runs.summary import search_rows
 from tehl_taichi.runs.summary.result_warnings import yielding
 from tehl_taichi.scene import yield_stress
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.scene.strength.strength import Strength
 
 GEAR = tehl.scene("gear")
 
@@ -110,12 +112,28 @@ def test_warning_and_verdict_speak_by_it():
 def test_only_steel_yields_where_hardened_steel_does(own, limit, words):
     """A ceramic without a yield stress of its own (or of a table) is not known to yield."""
     scene = GEAR.replace(**{f"bodies.b.{key}": value for key, value in own.items()})
-    summary = said(True, limit)[0]
+    summary = said(None if words else True, limit)[0]
     texts = [str(next(yielding(SimpleNamespace(scene=scene), summary))), *verdict._yielding(summary, scene)]
     doubt = "his body is no steel (E = 310 GPa): set bodies.b.yield_stress"
     assert [doubt in text for text in texts] == [bool(words)] * 2
     assert [(words or "its yield stress") in text for text in texts] == [True] * 2
     assert ["real ones would yield" in text for text in texts] == [not words] * 2
+
+
+def part_of(name, value, E):
+    """Part "von_mises" of a body with this largest stress (Pa) and Young's modulus (Pa), without a yield stress of its own."""
+    surface = SimpleNamespace(name=name, body=replace(GEAR.body_a, E=E, yield_stress=0.0))
+    return summary([VonMisesPeak(value, 0.0, 0.0, 0.0)], value, surface, Strength(GEAR.fatigue, surface))
+
+
+def test_a_body_that_is_no_steel_hides_no_steel_that_yields():
+    """A ceramic ball on a steel ring: the ball bears more than is known of it, the ring is the one that yields."""
+    ring, ball = part_of("a", 2.3e9, 206e9), part_of("b", 2.6e9, 310e9)
+    assert ring["yields"] is True and ball["yields"] is None
+    assert search_rows.nearest_to_yield([{"von_mises": ball}, {"von_mises": ring}]) is ring
+    assert search_rows.nearest_to_yield([{"von_mises": ball}]) is ball
+    row, = search_rows._von_mises_rows([{"von_mises": ball}])
+    assert row.note == ", yield stress not known"
 
 
 @pytest.mark.parametrize("E_a, E_b, known", [(310e9, 310e9, False), (310e9, 208e9, True), (208e9, 75e9, True)])
@@ -144,7 +162,7 @@ def test_it_is_printed_with_what_the_body_bears():
 
 def test_the_peak_that_is_closest_to_the_yield_stress_of_its_depth_counts():
     """A weak core at 100 um: 1.2 GPa of 1 GPa there, 1.5 of 2 GPa at the surface."""
-    strength = SimpleNamespace(yield_stress=lambda depth: 1e9 if depth > 5e-5 else 2e9)
+    strength = SimpleNamespace(yield_stress=lambda depth: 1e9 if depth > 5e-5 else 2e9, knows_yield_stress=True)
     peaks = [VonMisesPeak(1.5e9, 0.0, 0.0, 0.0), VonMisesPeak(1.2e9, 1e-4, 0.0, 0.0)]
     found = summary(peaks, 1.5e9, SimpleNamespace(name="a"), strength)
     assert (found["max_Pa"], found["depth_m"], found["yield_stress_Pa"], found["yields"]) == (1.2e9, 1e-4, 1e9, True)

@@ -18,6 +18,7 @@ from tehl_taichi.errors import Interrupted
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.report import chain_plot
+from tehl_taichi.store.integrity import EXTENDED
 from tehl_taichi.store.reader import Reader
 from tehl_taichi.view.zoom_window import ZoomWindow
 
@@ -357,6 +358,23 @@ def test_a_part_of_a_passage_does_not_end_the_search_for_its_window(whole, folde
     found = tehl.open(path)
     assert found.scene == whole.scene and found.store.window_search is None
     assert numbers(found.summary) == numbers(whole.summary)
+
+
+@pytest.mark.parametrize("factor", [2, "auto"])
+def test_a_refused_window_leaves_the_search_as_it_was(sought, folder, monkeypatch, factor):
+    from tehl_taichi.runs import single_run, zoom_need, zoom_store
+
+    def refused(*_):
+        raise tehl.SceneError("more memory")
+
+    path = shutil.copytree(sought.path, folder / f"refused-{factor}.zarr")
+    state = zoom_store._at_the_end(tehl.open(path)).store.window_search
+    assert state == EXTENDED
+    monkeypatch.setattr(zoom_need, "factors", lambda done: (2,))
+    monkeypatch.setattr(single_run, "continued", refused)
+    with pytest.raises(tehl.SceneError, match="more memory"):
+        tehl.zoom(path, factor)
+    assert tehl.open(path).store.window_search == state
 
 
 def test_a_chosen_window_ends_the_search(sought, folder):

@@ -100,9 +100,16 @@ def _stressed_rows(f):
 
 
 def nearest_to_yield(searches):
-    """Part "von_mises" of the body nearest to its yield stress, of the summaries of its searches; None without any."""
+    """Part "von_mises" of the body nearest to its yield stress, of the summaries of its searches; of one whose yield stress is
+    not known if there is no other; None without any.
+    """
     found = [part for one in searches if (part := searched(one).get("von_mises"))]
-    return max(found, key=lambda part: part["max_Pa"] / part["yield_stress_Pa"], default=None)
+    return max(found, key=lambda part: (_bears_known(part), part["max_Pa"] / part["yield_stress_Pa"]), default=None)
+
+
+def _bears_known(part):
+    """Whether the yield stress of the body of a part "von_mises" is known."""
+    return part.get("yields", False) is not None
 
 
 def _von_mises_rows(searches):
@@ -110,8 +117,9 @@ def _von_mises_rows(searches):
     if not (found := nearest_to_yield(searches)):
         return []
     where = at_depth(found) if found["depth_m"] else ", at the surface"
+    limit = f"{found['yield_stress_Pa'] / 1e9:.3g} GPa" if _bears_known(found) else "not known"
     return [row_of(found, "max_Pa", "largest von Mises stress", 1e-9, "GPa", where=f"{where} ({found['surface']})",
-                note=f", yield stress {found['yield_stress_Pa'] / 1e9:.3g} GPa", part=BELOW)]
+                note=f", yield stress {limit}", part=BELOW)]
 
 
 def _averaged_rows(f):

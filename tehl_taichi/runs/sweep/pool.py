@@ -76,8 +76,6 @@ def check(workers, threads, scheduler=None):
     """Raise the errors that :func:`results` would raise before its first job, including those of jobs in this process."""
     runtime.end_if_importing()
     if scheduler is not None:
-        from tehl_taichi.runs.sweep import dask_cluster
-
         dask_cluster.check(scheduler)
     elif workers == 1:
         runtime.check(threads=threads)

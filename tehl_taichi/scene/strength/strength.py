@@ -86,3 +86,8 @@ class Strength:
         if self.table is not None and self.table.has(YIELD):
             return float(self.table.at(YIELD, depth))
         return yield_stress.of(self.body)
+
+    @property
+    def knows_yield_stress(self):
+        """Whether the yield stress is given, or may be that of steel."""
+        return self.table is not None and self.table.has(YIELD) or yield_stress.is_known(self.body)

@@ -22,13 +22,6 @@ def test_operators_of_other_rows_take_the_same_tables(monkeypatch):
     assert made[-3:] == [9e-6] * 3
 
 
-def test_without_room_they_are_made_again():
-    tables, made = KeptArrays(100.0), []
-    for key in "aabb":
-        tables.of(key, lambda key=key: (made.append(key), np.zeros(10))[1])
-    assert made == ["a", "b", "b"]
-
-
 @pytest.mark.parametrize("load", range(3))
 @pytest.mark.parametrize("depth", (0.0, 4e-6))
 def test_cells_of_a_grid_have_the_stresses_of_single_cells(load, depth, monkeypatch):
