@@ -69,8 +69,10 @@ def _free_figure(folder, format, force):
 
 
 def _scenes(found):
+    if missing := found.without_settings:
+        put(f"settings of the contacts in {' and '.join(missing)} are not known: nothing is stored there")
     if not found.differs:
-        return put("the settings are identical")
+        return None if missing else put("the settings are identical")
     rows = [(_with_unit(key), *map(_shown, values)) for key, values in found.differs.items()]
     list_table("differences between the settings", ("key", *found.names), rows, whole=True)
 

@@ -44,6 +44,7 @@ class Comparison:
     """
 
     stores: tuple
+    without_settings = ()  # every store has its scene
 
     def __repr__(self):
         return f"<tehl.Comparison of {len(self.stores)} runs{': ' * bool(self.stores)}{', '.join(self.labels())}>"

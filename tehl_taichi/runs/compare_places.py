@@ -99,6 +99,12 @@ class PlaceComparison:
         """
         return compare_labels.differs(place_table.settings(self.tables))
 
+    @property
+    def without_settings(self) -> list:
+        """Names of the folders without a stored contact, whose scenes are not known, if others have some."""
+        known = [bool(table.scene) for table in self.tables]
+        return [name for name, one in zip(self.names, known) if not one] if any(known) else []
+
     def labels(self) -> list:
         """Label of each result: up to two values that differ, or its folder."""
         return compare_labels.labels(self.differs, [table.folder for table in self.tables])

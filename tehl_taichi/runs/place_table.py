@@ -200,8 +200,7 @@ def settings(tables):
     if all tables have them.
     """
     if not all(table.scene for table in tables):
-        known = {True: "those of its results", False: "not known before the first result"}
-        return [{**table.about, "other settings": known[bool(table.scene)]} for table in tables]
+        return [table.about for table in tables]
     common = set.intersection(*(set(table.scene) for table in tables))
     return [{**table.about, **{key: value for key, value in table.scene.items()
                                if key in common or not key.startswith(WIDER)}} for table in tables]

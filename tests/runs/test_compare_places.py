@@ -82,10 +82,12 @@ def test_positions_of_one_flank_alone_stand_in_their_place(flanks):
 def test_oils_of_the_stores_are_differences(flanks):
     """Of what all contacts of a flank have in common."""
     store(flanks[0] / "1.zarr", 2)
-    assert tehl.compare(*flanks).differs == {"torque": [265.1, 300.0]}, "the other one has no store"
+    alone = tehl.compare(*flanks)
+    assert alone.differs == {"torque": [265.1, 300.0]} and alone.without_settings == [flanks[1].name], "it has no store"
     store(flanks[1] / "1.zarr", 2, SMALL.replace(**{"oil.name": "mineral-vg100"}))
     store(flanks[1] / "2.zarr", 2, SMALL.replace(**{"oil.name": "mineral-vg100", "load": 1.2e6, "srr": 0.1}))
     found = tehl.compare(*flanks)
+    assert found.without_settings == []
     assert not any(key.startswith(("contact.", "operation.srr")) for key in found.differs), "positions have their own"
     assert found.differs["oil.name"] == ["reference-pao", "mineral-vg100"] and "oil.S0" in found.differs
     assert found.labels() == ["torque = 265.1, oil = reference-pao", "torque = 300, oil = mineral-vg100"]
