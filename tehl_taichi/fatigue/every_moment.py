@@ -16,7 +16,6 @@ import numpy as np
 from tehl_taichi.fatigue import depth_search, findley
 from tehl_taichi.fatigue.layer import layer
 from tehl_taichi.fatigue.sought import Box
-from tehl_taichi.fatigue.stress import held_heat
 from tehl_taichi.fatigue.stress.histories import StressHistories
 from tehl_taichi.fatigue.stress.row_histories import histories_of
 from tehl_taichi.fatigue.worst_point import worst_of
@@ -99,6 +98,8 @@ def _histories(scene, loads, points):
     depths, rows = sorted({point.depth for point in points}), sorted({_row(loads, point) for point in points})
     found = dict(zip(rows, histories_of(loads, depths, [(row, False) for row in rows])))
     if scene.has_thermal_stress and not depths[0]:
+        from tehl_taichi.fatigue.stress import held_heat
+
         for row, held in held_heat.histories(loads, rows).items():
             found[row][0] += held
     return [found[_row(loads, point)][depths.index(point.depth), nearest_index(loads.x, point.x)] for point in points]

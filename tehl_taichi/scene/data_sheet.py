@@ -29,12 +29,18 @@ VISCOSITY = ("G0", "S0", "Dz", "Cz")
 
 def has_sheet(values):
     """Whether any of these values of an oil belongs to a data sheet."""
-    return any(plain(values.get(key, 0)) != 0 for key in KEYS)
+    return any(_given(values, key) for key in KEYS)
+
+
+def _given(values, key):
+    """Whether a key is given: what is no number is refused later."""
+    value = plain(values.get(key, 0))
+    return not isinstance(value, (int, float)) or value != 0
 
 
 def derived_keys(values):
     """Names of the numbers that the data sheet in these values determines, () without one."""
-    return () if not has_sheet(values) else (*VISCOSITY, "rho0") if values.get("rho_15", 0) else VISCOSITY
+    return () if not has_sheet(values) else (*VISCOSITY, "rho0") if _given(values, "rho_15") else VISCOSITY
 
 
 def derived_values(oil):

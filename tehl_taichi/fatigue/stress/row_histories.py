@@ -7,8 +7,6 @@ from tehl_taichi.fatigue.stress.averaging import has_window
 from tehl_taichi.fatigue.stress.row_stress import RowStress
 from tehl_taichi.fatigue.stress.thermal_stress import ThermalStress
 from tehl_taichi.fatigue.stress.unit_loads import HELD
-from tehl_taichi.fatigue.stress.windowed import WindowedStresses
-from tehl_taichi.fatigue.stress.windowed_heat import WindowedHeat
 from tehl_taichi.fatigue.stress.workers import pool
 
 
@@ -47,7 +45,7 @@ def _thermal(passage):
     """The ThermalStress at the surface of a passage, or None without thermal stress."""
     if not passage.scene.has_thermal_stress:
         return None
-    return WindowedHeat.on_the_surface(passage) if has_window(passage.reader) else passage.heat(ThermalStress)
+    return _windowed_heat().on_the_surface(passage) if has_window(passage.reader) else passage.heat(ThermalStress)
 
 
 def _histories(passage, depths, kinds, notify, thermal, meanwhile=lambda: None):
@@ -62,6 +60,13 @@ def _histories(passage, depths, kinds, notify, thermal, meanwhile=lambda: None):
     if deep:
         _heat(passage, depths, deep, [row for row, _ in kinds], out, lambda n: notify(blocks + n, blocks + len(deep)))
     return passage.resting(out, np.asarray(depths)[:, None], [row for row, _ in kinds])
+
+
+def _windowed_heat():
+    """The class, loaded only where a scene has a window."""
+    from tehl_taichi.fatigue.stress.windowed_heat import WindowedHeat
+
+    return WindowedHeat
 
 
 class _Stresses:
@@ -84,6 +89,8 @@ def _of_loads(passage, depths, kinds):
     """Function of a block of entries that returns the stresses of their loads, without heat."""
     if not has_window(passage.reader):
         return _LoadStresses(passage, depths, kinds)
+    from tehl_taichi.fatigue.stress.windowed import WindowedStresses
+
     return WindowedStresses(passage, depths, [row for row, _ in kinds], _kind(passage))
 
 
@@ -126,7 +133,7 @@ def _heat(passage, depths, deep, rows, out, notify):
     deep: numbers of the depths below the surface; notify: called with the number of depths done.
     """
     first = min(depths[n] for n in deep)
-    thermal = passage.below(first, WindowedHeat.below if has_window(passage.reader) else None)
+    thermal = passage.below(first, _windowed_heat().below if has_window(passage.reader) else None)
     with pool(passage.nodes) as workers:
         for done, (n, found) in enumerate(zip(deep, workers.map(lambda n: thermal.rows(depths[n], rows), deep)), 1):
             for kind, stresses in enumerate(found):

@@ -119,7 +119,7 @@ def test_a_feature_passes_at_every_position(taichi_cpu, tmp_path):
     assert summary["transient"]["h_min_m"] < summary["steady"]["h_min_m"] and summary["fatigue"]["Fi_max"] > 0
     assert whole.positions[0].srr > 0 < whole.positions[0].x_pl
     (column,) = [c for c in flank_columns.COLUMNS if c.name == "Fi_max"]
-    assert column.shown(*whole.rows[0]) == f"{summary['fatigue']['Fi_max']:.3f}"
+    assert column.shown(*whole.rows[0]) == f"{summary['fatigue']['Fi_max']:.3f} ± ?"
 
 
 class Heard(tehl.Progress):
