@@ -13,7 +13,6 @@ from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json
 from tehl_cli.suite_results import Results
 
-from tehl_taichi.engine import runtime
 from tehl_taichi.engine.cores import available
 from tehl_taichi.errors import StoreError
 
@@ -37,6 +36,7 @@ def accuracy(
     """
     from tehl_taichi.profiles.coverage import PARTS
 
+    from tehl_taichi.engine import runtime
     from tehl_taichi.values.checks import choice
 
     choice("--only", only, (None, "errors", *PARTS))

@@ -8,7 +8,6 @@ from pathlib import Path
 
 from tehl_taichi import __version__
 from tehl_taichi.commit import commit
-from tehl_taichi.disk import files
 from tehl_taichi.errors import StoreError
 
 PAGE, PAGES = Path("docs/performance.md"), {"verdict": Path("docs/strength.md")}  # in the current folder; of other suites
@@ -33,6 +32,8 @@ def write(name, columns, rows, keys=0):
     rows: texts; keys: number of leading cells that identify a row; old rows that are not among the new ones stay.
     """
     from tehl_taichi.profiles import measure
+
+    from tehl_taichi.disk import files
 
     before, now, after = _split_page(name)
     old = _rows(now)[2:] if keys else []
@@ -62,6 +63,8 @@ def _cell(text):
 
 def _split_page(name):
     """(page up to the start mark of a suite's table, the table, page from its end mark)."""
+    from tehl_taichi.disk import files
+
     mark, page = f"<!-- bench: {name} -->", of(name)
     with files.disk_errors(page, "cannot read"):
         text = files.text(page)

@@ -10,8 +10,6 @@ from tehl_cli.live_display import Live, say
 from tehl_cli.stdout import print_json
 from tehl_cli.tables import answer, list_table
 
-from tehl_taichi.engine import runtime
-
 
 @with_fatigue_options
 def fatigue(
@@ -26,6 +24,7 @@ def fatigue(
 
     Example: `tehl fatigue runs/gear-1.zarr --kappa 0.25 --endurance 450e6 --to-x 0.5`
     """
+    from tehl_taichi.engine import runtime
     from tehl_taichi.fatigue.overrides import changed
     from tehl_taichi.runs.open_results import open_run
     from tehl_taichi.runs.summary import life

@@ -11,7 +11,6 @@ from tehl_cli.live_display import Live
 from tehl_cli.stdout import put
 
 import tehl_taichi as tehl
-from tehl_taichi.engine import runtime
 
 
 @with_fatigue_options
@@ -35,6 +34,8 @@ def report(
     Examples: `tehl report runs/gear-1.zarr --open` · `tehl report runs/fzg-c-1 --out flank.html` ·
     `tehl report runs/gear-1.zarr --bending-limit 600e6 --torsion-limit 390e6 --to-x 0.5`
     """
+    from tehl_taichi.engine import runtime
+
     runtime.check(threads=threads)
     if all(value is None for value in constants.values()):
         say_idle(context, "only a search with other constants computes", "threads")

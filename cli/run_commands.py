@@ -14,7 +14,6 @@ from tehl_cli.tables import summary_table
 from tehl_cli.timing import print_budget, time_budget
 
 import tehl_taichi as tehl
-from tehl_taichi.engine import runtime
 from tehl_taichi.errors import SceneError
 from tehl_taichi.values.digits import number_of
 from tehl_taichi.values.escape import typed
@@ -112,6 +111,7 @@ def resume(
 
     Example: `tehl resume runs/gear-1.zarr`
     """
+    from tehl_taichi.engine import runtime
     from tehl_taichi.runs.open_results import open_run
 
     before = open_run(store)

@@ -5,8 +5,6 @@ from tehl_cli.live_display import say
 from tehl_cli.stdout import print_json
 from tehl_cli.tables import list_table
 
-from tehl_taichi.disk import links, user_files
-
 
 def texts(rows, columns):
     """Rows (dictionaries) as lists of texts, in the formats {key: format} of `columns`; unknown values are left empty."""
@@ -21,6 +19,8 @@ class Results:
     """
 
     def __init__(self, folder, name, force, as_json, more=(), kept=(), write=False):
+        from tehl_taichi.disk import links, user_files
+
         self.folder, self.name, self.as_json, self.write = folder, name, as_json, write
         if write:
             bench_page.check(name)
@@ -76,11 +76,15 @@ class Results:
 
     def page(self, text):
         """Write NAME.md."""
+        from tehl_taichi.disk import user_files
+
         user_files.text(self.file("md"), f"{text.rstrip()}\n\n{user_files.COMMENT}\n", force=True)
 
     def picture(self, chart):
         """Write NAME.png if matplotlib is installed; chart(plt): the figure."""
         from tehl_taichi.profiles import measure
+
+        from tehl_taichi.disk import user_files
 
         plt = measure.pyplot()
         if plt:
