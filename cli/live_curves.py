@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from tehl_taichi.values.arrays import nearest_index
+
 ROWS, NARROWEST, LOWEST = 5, 24, 14  # letters: height of a plot, least width of one, least height of a terminal with plots
 DOTS = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])  # of a braille letter: rows, columns (Unicode 28xx)
 LOADED, BESIDE = 0.02, 0.3  # share of the largest pressure that is shown; share of that width shown on both sides
@@ -95,7 +97,7 @@ def shown_row(snapshot):
     """Row along which a snapshot is drawn."""
     if snapshot.y[0] < 0:
         return int(np.argmax(snapshot.fields["pressure"].max(axis=0)))
-    return int(np.argmin(np.abs(snapshot.y)))
+    return nearest_index(snapshot.y, 0.0)
 
 
 def contact_slice(p):

@@ -16,6 +16,7 @@ from tehl_taichi.runs.single_run import run_or_resume
 from tehl_taichi.scene import Scene
 from tehl_taichi.scene.scales import Scales
 from tehl_taichi.store.store_draft import removed
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.values.coded_text import Reason, code_of
 
 WINDOWS = {"entry": (-np.inf, -0.5), "inside": (-0.5, 0.5), "exit": (0.5, np.inf), "to 0.5 a": (-np.inf, 0.5),
@@ -130,7 +131,7 @@ def _moments(passage, low, high):
 
 def deep_stresses(passage):
     """DEEP, ALONE and their depths."""
-    row = int(np.argmin(np.abs(passage.reader.y - passage.scene.features[0].y)))
+    row = nearest_index(passage.reader.y, passage.scene.features[0].y)
     windows = [_moments(passage, *WINDOWS[window]) for window in DEEP]
     deep = exact_depths.computed(passage, [row], depth_profile.profiles(passage, [row], windows), windows)
     alone = contact_alone.search(passage.scene, passage.reader, passage.surface).summary
@@ -142,7 +143,7 @@ def deep_stresses(passage):
 def footprint_friction(saved, at):
     """Friction over load on the feature's footprint when it is at x_a = at (in a)."""
     a = Scales.of(saved.scene).a
-    n = int(np.argmin(np.abs(saved.scalar("feature_x") / a - at)))
+    n = nearest_index(saved.scalar("feature_x") / a, at)
     fields = saved.fields(n, ("pressure", "traction_x_a"))
     distance = np.hypot(saved.x[:, None] - saved.feature_x(n), saved.y[None, :])
     under = distance < saved.scene.features[0].reach

@@ -9,6 +9,7 @@ from tehl_taichi.profiles import measure
 
 from tehl_taichi.runs.single_run import run_or_resume
 from tehl_taichi.scene import scene
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.values.summary_values import error_of, value_at
 from tehl_taichi.view.zoom_window import ZoomWindow
 
@@ -95,7 +96,7 @@ def _finished(description, path, threads):
 def _moment(store, x):
     """(entry, position in m) of the moment with the feature closest to x (m)."""
     places = [store.feature_x(n) for n in range(1, len(store))]
-    n = int(np.argmin(np.abs(np.subtract(places, x))))
+    n = nearest_index(np.asarray(places), x)
     return n + 1, places[n]
 
 

@@ -6,6 +6,7 @@ Each leaves its result in the solver's table and returns the SolveReport of its 
 import numpy as np
 
 from tehl_taichi.pressure import fields
+from tehl_taichi.values.arrays import nearest_index
 
 CLOSE = 0.03  # Krylov tolerance between blocks of temperatures: with 0.2 they may never settle (4 GPa, 64 columns)
 CAREFUL = 1e-2  # Krylov tolerance where that of the scene did not converge
@@ -213,7 +214,7 @@ def _hertz(solver, film):
     v.put(fields.P, np.where(unknown, np.sqrt(np.maximum(1 - r2, 0.0)), v.get(fields.P)))
     v.set_film(0.0)
     gap = v.get(fields.H)
-    centre = float(gap[0, int(np.argmin(np.abs(v.X)))])
+    centre = float(gap[0, nearest_index(v.X, 0.0)])
     if solver.border is not None:
         solver.border.begin(gap - centre)
     solver.H0 = film - centre

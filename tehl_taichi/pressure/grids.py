@@ -5,6 +5,7 @@ import numpy as np
 from tehl_taichi.engine import simd
 from tehl_taichi.laws.gap import undeformed
 from tehl_taichi.pressure import influence
+from tehl_taichi.values.arrays import nearest_index
 
 COARSEST_2D = 16  # of Grids
 COARSEST_1D = 32
@@ -27,7 +28,7 @@ class Grids:
         # not as differences: the coarser levels of all grids of a start then have the very same spacings
         self.dx = (description.x_max - description.x_min) / nx
         self.dy = (2 if full else 1) * y_max / ny if ny else 1.0
-        self.middle = int(np.argmin(np.abs(self.Y))) if not self.line else ny  # row of a central film without feature
+        self.middle = nearest_index(self.Y, 0.0) if not self.line else ny  # row of a central film without feature
         self.sizes = coarsen(nx, ny, coarsest)
         self.dense, self.lines = solved_by(self.sizes)
         self.blocks = self._blocks([*self.lines, *self.dense])

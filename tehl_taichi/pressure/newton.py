@@ -18,6 +18,7 @@ from tehl_taichi.pressure.inlet import Inlet
 from tehl_taichi.pressure.linear import red_black
 from tehl_taichi.pressure.linear.interface import RightHandSide
 from tehl_taichi.pressure.linear.multigrid_gmres import MultigridGmres
+from tehl_taichi.values.arrays import nearest_index
 
 SHORTEST_STEP = 0.05  # of a Newton step; below it a step is taken as it is and the next linearisation decides
 SMALL_CHANGE = 0.05  # in P/p_H: near the solution full steps are taken although the merit may rise for a moment
@@ -106,7 +107,7 @@ class PressureSolver:
         self.old, self.part = np.zeros(v.n), np.ones(1)
         self._keep_pressure = v.launch(balances.save, v.S, v.G, fields.P, self.old)
         self._move_pressure = v.launch(balances.advance, v.S, v.G, self.old, self.step, self.part)
-        self._sums = v.launch(balances.sums, v.S, v.G, int(np.argmin(np.abs(v.X))), self.partial)
+        self._sums = v.launch(balances.sums, v.S, v.G, nearest_index(v.X, 0.0), self.partial)
         self._choose_sets = v.launch(balances.choose_sets, v.S, v.J, v.G, ROW_CAP, self.b, self.mass_row, self.touching)
 
     @functools.cached_property

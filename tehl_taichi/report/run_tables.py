@@ -1,13 +1,12 @@
 """Tables of a run: numbers with their errors, worst points, numerics, provenance."""
 
-import json
-
 from tehl_taichi.fatigue.judged_layers import deciding, leading, over
 from tehl_taichi.fatigue.judged_surfaces import by_surface
 from tehl_taichi.march import quantities
 from tehl_taichi.report.document import facts, sentences, table
 from tehl_taichi.report.number_text import FEW, index, roughly, share, text_parts, value_text
 from tehl_taichi.runs.summary.summary_rows import contact_share
+from tehl_taichi.runs.sweep.axis_syntax import word
 from tehl_taichi.scene.feature_wording import feature_word, met_words
 from tehl_taichi.store import integrity
 from tehl_taichi.values.coded_text import Reason, reasons_of
@@ -167,9 +166,5 @@ def provenance(store):
     """Rows of provenance: attributes of the store, and the runtime of its process."""
     runtime = integrity.optional_value(store.attrs, "runtime", {})
     rows = [(key, str(store.attrs[key])) for key in FROM if key in store.attrs]
-    return facts([("store", store.path.name), *rows, *((key, _word(runtime[key])) for key in ("taichi", "arch", "threads")
+    return facts([("store", store.path.name), *rows, *((key, word(runtime[key])) for key in ("taichi", "arch", "threads")
                                                        if key in runtime)])
-
-
-def _word(value):
-    return value if isinstance(value, str) else json.dumps(value)

@@ -21,8 +21,8 @@ from tehl_taichi.report.number_text import index, sentence_case, value_text
 from tehl_taichi.report.scene_text import WHOLE, material, moments, when
 from tehl_taichi.runs import run_in_stage
 from tehl_taichi.runs.summary import life, limit_meaning, rim_warnings
-from tehl_taichi.runs.summary.result_warnings import passes_yield_stress, place_text, steel_bodies
-from tehl_taichi.scene import feature_wording, yield_stress
+from tehl_taichi.runs.summary.result_warnings import passed_limit, passes_yield_stress, place_text, steel_bodies
+from tehl_taichi.scene import feature_wording
 from tehl_taichi.scene.strength.strength import Strength
 from tehl_taichi.scene.timeline import total_steps
 from tehl_taichi.values.digits import micrometres, number_of, part_of, with_error
@@ -270,11 +270,9 @@ def _yielding(summary, scene):
                "bodies.")
     if "run_in" in summary:
         elastic = "This body has no yield stress, so it is elastic here, while a real one would yield."
-    limit, name = found["yield_stress_Pa"], found["surface"]
-    body = getattr(scene, f"body_{name}")
-    doubt = "" if found["yields"] else yield_stress.doubt(body, name)
+    limit, doubt = passed_limit(found, scene)
     return (f"The von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place_text(found, 'µm')}, more than "
-            f"{yield_stress.words(limit, body)}. {f'{doubt[0].upper()}{doubt[1:]}.' if doubt else elastic}",)
+            f"{limit}. {f'{sentence_case(doubt)}.' if doubt else elastic}",)
 
 
 def _run_in(summary):

@@ -509,7 +509,7 @@ def _as_table(key, value):
 def _bodies(values):
     if not isinstance(values, dict):
         raise SceneError(f"[bodies] may only hold the tables [bodies.a] and [bodies.b], not {shown(values)}")
-    for key in (key for key in values if key not in ("a", "b")):
+    if (key := next((key for key in values if key not in ("a", "b")), None)) is not None:
         example = key if key in kinds(Body) else "E"
         raise SceneError(f"unknown key {key_shown(f'bodies.{key}')}; each body has its own keys, as bodies.a.{example} and "
                          f"bodies.b.{example}")

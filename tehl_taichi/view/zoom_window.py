@@ -8,6 +8,7 @@ from tehl_taichi.march.zoom import overlap
 from tehl_taichi.march.zoom.window import windows_of
 from tehl_taichi.march.zoom.zoomed_reader import EXTREMES
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.arrays import nearest_index
 
 __all__ = ["EXTREMES", "FIRST", "ZoomWindow"]
 FIRST = "zoom_", "zoom2_"  # begin the names of the windows of a run: of the first feature's surface, and of the other one
@@ -121,5 +122,5 @@ class ZoomWindow:
 
     def row(self, y):
         """Number of the window's row at y (m); None if the window has no row there."""
-        row = int(np.argmin(np.abs(self.y - y)))
+        row = nearest_index(self.y, y)
         return row if abs(self.y[row] - y) < 1e-3 * (self.x[1] - self.x[0]) else None

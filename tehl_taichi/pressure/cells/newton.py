@@ -10,6 +10,7 @@ from tehl_taichi.pressure.fields import FLOOR, K0, MASK, RHO, WEIGHT, H, P, R
 from tehl_taichi.pressure.linear.cells.cell_gmres import CellGmres
 from tehl_taichi.pressure.linear.cells.sums import CHUNKS, GROUPS, add_up
 from tehl_taichi.pressure.newton import ROW_CAP, PressureSolver
+from tehl_taichi.values.arrays import nearest_index
 
 SUMS = 6  # number of sums: those of `balances`, then the square of the right-hand side and its net outflow
 
@@ -95,7 +96,7 @@ class CellNewton(PressureSolver):
         self.step, self.old, self.part = self.linear.krylov.out, ti.ndarray(ti.f64, v.n), np.ones(1)
         self.sums = tuple(ti.ndarray(ti.f64, size) for size in ((SUMS, CHUNKS), (SUMS, GROUPS), (1, SUMS)))
         self.partial, self.touching = np.zeros((1, balances.SUMS)), np.zeros((v.fine, 1))
-        self.middle = int(np.argmin(np.abs(v.X)))
+        self.middle = nearest_index(v.X, 0.0)
         self._keep_pressure = v.launch(balances.save, v.S, v.G, P, self.old)
         self._move_pressure = v.launch(balances.advance, v.S, v.G, self.old, self.step, self.part)
         self._choose_sets = v.launch(balances.choose_sets, v.S, v.J, v.G, ROW_CAP, self.b, self.mass_row, self.touching)

@@ -166,11 +166,9 @@ def yielding(store, summary):
     if found and found["surface"] in steel_bodies(summary):  # `running_in` speaks of these
         return
     if found and passes_yield_stress(found):
-        limit, name = found["yield_stress_Pa"], found["surface"]
-        body = getattr(store.scene, f"body_{name}")
-        meaning = elastic if found["yields"] else yield_stress.doubt(body, name)
+        limit, doubt = passed_limit(found, store.scene)
         text = (f"the von Mises stress reaches {found['max_Pa'] / 1e9:.2f} GPa {place_text(found)}, more than "
-                f"{yield_stress.words(limit, body)}; {meaning}")
+                f"{limit}; {doubt or elastic}")
         yield with_data(text, von_mises_Pa=found["max_Pa"], yield_stress_Pa=found["yield_stress_Pa"])
     elif not found and "run_in" not in summary and p > (limit := yield_stress.pressure(store.scene)):
         text = f"p_max {p / 1e9:.2f} GPa: under asperities bodies like these yield above about {limit / 1e9:.1f} GPa; {elastic}"
@@ -180,6 +178,13 @@ def yielding(store, summary):
 def passes_yield_stress(part):
     """Whether a part "von_mises" exceeds the yield stress of its body, or of hardened steel if that is not known."""
     return part["max_Pa"] > part["yield_stress_Pa"] if part["yields"] is None else part["yields"]
+
+
+def passed_limit(part, scene):
+    """(text of the stress that a part "von_mises" exceeds, reason why its body is not known to yield there or "")."""
+    body = getattr(scene, f"body_{part['surface']}")
+    doubt = "" if part["yields"] else yield_stress.doubt(body, part["surface"])
+    return yield_stress.words(part["yield_stress_Pa"], body), doubt
 
 
 def steel_bodies(summary):

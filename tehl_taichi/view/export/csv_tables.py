@@ -3,6 +3,7 @@
 import numpy as np
 
 from tehl_taichi.errors import SceneError
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.values.escape import cell
 from tehl_taichi.view.export.file_format import Format, flat_fields, unit
 from tehl_taichi.view.zoom_window import ZoomWindow
@@ -60,7 +61,7 @@ def series(reader):
 
 def centreline(reader, n):
     """Table of every field along y = 0 at entry n, and its moment."""
-    row = int(np.argmin(np.abs(reader.y)))
+    row = nearest_index(reader.y, 0.0)
     moment = {_title(reader, name): np.full(reader.x.size, reader.scalar(name)[n]) for name in ("time", "feature_x")}
     return {"x [m]": reader.x, **_of(reader, {name: values[:, row] for name, values in _flat(reader, n).items()}), **moment}
 

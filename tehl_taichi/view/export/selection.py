@@ -2,10 +2,9 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.values.coerce import plain, shown
 from tehl_taichi.values.units import amount
 
@@ -46,7 +45,7 @@ def _entry(reader, at):
     step = abs(passed[-1] - passed[0]) / max(passed.size - 1, 1)
     if not passed.min() - BEYOND * step <= at <= passed.max() + BEYOND * step:
         raise SceneError(f"at = {at:g} a: the feature moves from {passed.min():.2f} to {passed.max():.2f} a in {reader.path}")
-    return 1 + int(np.argmin(np.abs(passed - at)))
+    return 1 + nearest_index(passed, at)
 
 
 def _point(reader, point):

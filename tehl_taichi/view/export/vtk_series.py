@@ -46,7 +46,7 @@ def _write_window(reader, window, folder):
 def collection(times):
     """Text of a .pvd: (time, file) of every image."""
     parts = "\n".join(f'<DataSet timestep="{float(time)!r}" file="{file}"/>' for time, file in times)
-    return (f'{TOP}<VTKFile type="Collection" version="1.0" {HEAD}>\n<Collection>\n{parts}\n</Collection>\n</VTKFile>\n')
+    return f'{TOP}<VTKFile type="Collection" version="1.0" {HEAD}>\n<Collection>\n{parts}\n</Collection>\n</VTKFile>\n'
 
 
 def image(x, y, fields, numbers):

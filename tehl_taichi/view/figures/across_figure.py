@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.view.figures.line_figures import set_title, start_style
 from tehl_taichi.view.figures.map_panels import mirrored
 
@@ -14,7 +15,7 @@ def centreline_y(page, moments):
     figure, ((top,), (low,)) = page.figure(2, sharex=True)
     for n, (colour, label) in shown.items():
         f = store.fields(n, ("pressure", "film"))
-        column = int(np.argmax(f["pressure"].max(axis=1))) if n else int(np.argmin(np.abs(moments.x)))
+        column = int(np.argmax(f["pressure"].max(axis=1))) if n else nearest_index(moments.x, 0.0)
         y, values = mirrored(store.y / moments.a, np.stack([f["pressure"][column] / 1e9, f["film"][column] * 1e6]))
         style = dict(label=f"{label}, x = {moments.x[column]:+.2f} a", color=colour, **start_style(colour))
         top.plot(y, values[0], **style)

@@ -9,6 +9,7 @@ import numpy as np
 from tehl_taichi.errors import SceneError
 from tehl_taichi.fatigue.findley import largest_principal, shear_path
 from tehl_taichi.fatigue.worst_point import on_circle
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.values.checks import number
 from tehl_taichi.values.coerce import plain
 from tehl_taichi.values.digits import micrometres
@@ -86,7 +87,7 @@ def _layers(found):
     if below is None or (found.depth is None and found.result.findley_stress_at_depth is None):
         return [top]
     depths, worst = found.result.fatigue_depth, found.summary["below"]["depth_m"]
-    n = beside_worst(depths, worst) if found.depth is None else int(np.argmin(np.abs(depths - found.depth * 1e-6)))
+    n = beside_worst(depths, worst) if found.depth is None else nearest_index(depths, found.depth * 1e-6)
     return [top, _layer(found, depths[n], below[n])]
 
 

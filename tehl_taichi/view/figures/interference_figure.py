@@ -3,6 +3,7 @@
 import numpy as np
 
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.view.figures.line_figures import ALONG
 from tehl_taichi.view.figures.map_panels import EDGE, half_axis, is_turned, mirrored
 
@@ -21,7 +22,7 @@ def interference(page, moments, light):
     x, y, path = _picture(moments, index * f["film"])
     figure, (ax, scale) = _panels(page, np.ptp(y) / np.ptp(x), is_turned(store.scene))
     _draw(ax, store.scene, x, y, light.colours(path))
-    middle = float(index[int(np.argmin(np.abs(moments.x))), moments.row])
+    middle = float(index[nearest_index(moments.x, 0.0), moments.row])
     _draw_scale(scale, light, middle, moments.film_top([n]))
     page.title(figure, f"{moments.named}: interference colours in {light.words}, {moments.peak(n)}")
     return figure

@@ -1,8 +1,8 @@
 """Lines along x in the row :attr:`Moments.line`: pressure and film, temperatures, temperatures across the film."""
 
-import numpy as np
 
 from tehl_taichi.scene.feature_wording import carriers, feature_word
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.view.figures import palette
 from tehl_taichi.view.figures.zoom_lines import ZoomLines
 
@@ -79,7 +79,7 @@ def profiles(page, moments):
     T = store.fields(n, ["temperature"])["temperature"][:, moments.line]
     figure, ((ax,),) = page.figure(height=1.6 * page.row())
     for X in ACROSS:
-        ax.plot(T[int(np.argmin(np.abs(moments.x - X)))], store.map("zeta"), "o-", label=f"x = {X:+.1f} a")
+        ax.plot(T[nearest_index(moments.x, X)], store.map("zeta"), "o-", label=f"x = {X:+.1f} a")
     ax.set(xlabel="temperature (°C)", ylabel="z / h (0: surface a, 1: surface b)")
     ax.grid()
     page.legend(figure)

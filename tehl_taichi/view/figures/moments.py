@@ -9,6 +9,7 @@ import numpy as np
 from tehl_taichi.errors import SceneError
 from tehl_taichi.scene.feature_wording import position_word
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.values.units import amount
 from tehl_taichi.view.figures import palette
 
@@ -61,7 +62,7 @@ class Moments:
     @property
     def row(self):
         """Row of y = 0, used to compare runs."""
-        return int(np.argmin(np.abs(self.store.y)))
+        return nearest_index(self.store.y, 0.0)
 
     @property
     def worst(self):
@@ -115,7 +116,7 @@ class Moments:
 
     def nearest(self, position):
         """Entry with the feature nearest to `position` (a); the steady one without a passage."""
-        return 1 + int(np.argmin(np.abs(self.moved - position))) if self.store.steps > 1 else 0
+        return 1 + nearest_index(self.moved, position) if self.store.steps > 1 else 0
 
     @cached_property
     def placed(self):

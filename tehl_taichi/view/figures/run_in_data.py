@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.values.digits import number_of
 
 COMPONENTS = {0: "σ_xx", 1: "σ_yy"}  # of the residual stress, by their place
@@ -38,7 +39,7 @@ def profiles(scene, state):
 
 
 def _profile(scene, name, body):
-    row = int(np.argmin(np.abs(body.y)))
+    row = nearest_index(body.y, 0.0)
     features = next(surface for surface in scene.surfaces if surface.name == name).features
     before = sum((f.height_at(body.x - f.x, body.y[row] - f.y) for f in features), np.zeros(body.x.size))
     stress = body.start.residual[..., row][:, list(COMPONENTS)]  # layers, components, x

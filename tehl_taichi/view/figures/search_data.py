@@ -3,13 +3,12 @@
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from tehl_taichi.fatigue.judged_layers import deciding
 from tehl_taichi.fatigue.pressure_alone import why_none
 from tehl_taichi.fatigue.search_result import SearchResult
 from tehl_taichi.scene.feature_wording import feature_word, from_centre, position_title, position_word
 from tehl_taichi.scene.scales import Scales
+from tehl_taichi.values.arrays import nearest_index
 from tehl_taichi.values.units import amount
 from tehl_taichi.view.figures.index_text import REST, resolved_words
 
@@ -78,4 +77,4 @@ class DrawnSearch:
 
 def beside_worst(depths, worst):
     """Number of the searched depth next to the worst one (m), except the surface."""
-    return 1 + int(np.argmin(np.abs(depths[1:] - worst)))
+    return 1 + nearest_index(depths[1:], worst)
